@@ -1,0 +1,70 @@
+# make setup   makes .venv: a Python 3.13 or 3.11, the bpy that fits it, and all that requirements/dev.txt pins
+# make demo    sets up, builds, and colorizes the example in examples/cones; the results are in demo/
+# make test    sets up, checks the style, builds the zip and tests it (in CI with every Python that is there)
+# make build   the extension's zip for this machine and this Python, in dist/
+# make dist    the zip to hand out: for this platform, with the wheels of every Python that a Blender runs
+# make dist-all  the same for every platform that has the wheels
+# make lint    the style alone;  make format  mends it
+# make clean   removes what was built;  make distclean  the environments, too
+#
+# PYTHON=/path/to/python names the Python to use; VENV=folder the environment.
+
+VENV ?= .venv
+PYTHON ?=
+VERSION ?=
+RUN = $(VENV)/bin/python
+
+.PHONY: help setup kernel build dist dist-all demo lint format test test-one test-all lock clean distclean
+
+help:
+	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
+
+setup:
+	@PYTHON="$(PYTHON)" tools/setup.sh $(VENV) $(VERSION)
+
+# The wheel of the kernel goes into the environment, too, where the tests without a Blender find it.
+kernel: setup
+	@tools/build_kernel.sh $(VENV)
+
+build: setup kernel
+	@$(RUN) tools/build_extension.py
+
+dist: setup kernel
+	@$(RUN) tools/build_extension.py --python all
+
+dist-all: setup
+	@$(RUN) kernel/build.py build/kernel-wheels
+	@$(RUN) tools/build_extension.py --python all --platform all
+
+demo: build
+	@$(RUN) tools/demo.py
+
+lint: setup
+	@$(VENV)/bin/ruff check
+	@$(VENV)/bin/ruff format --check
+
+format: setup
+	@$(VENV)/bin/ruff check --fix
+	@$(VENV)/bin/ruff format
+
+ifeq ($(CI),true)
+test: test-all
+else
+test: test-one
+endif
+
+test-one: lint build
+	@tools/run_tests.sh $(RUN)
+
+# Two LTS Blenders, two Pythons: one after the other, each in its own environment, whichever are there.
+test-all:
+	@tools/test_all.sh
+
+lock:
+	@tools/lock.sh
+
+clean:
+	rm -rf build dist demo
+
+distclean: clean
+	rm -rf .venv .venv-3.*

@@ -1,0 +1,130 @@
+"""Fixtures: the shared scans, the built zip, a Blender that has it installed, the command in a process of its own."""
+
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import blender_session
+import pytest
+from build_extension import host_platform, running_python, zip_path
+from footprint import footprint
+from hypothesis import settings
+
+ROOT = Path(__file__).resolve().parent.parent
+IN_CI = os.environ.get("CI") == "true"
+EXIT_STATUS = pytest.StashKey[int]()
+
+settings.register_profile("reflcolor", deadline=None, derandomize=IN_CI)
+settings.load_profile("reflcolor")
+
+
+@pytest.fixture(scope="session")
+def data_dir():
+    """The folder of real scans, REFLCOLOR_DATA or ../shared/data; without it the test is skipped, in CI it fails."""
+    folder = Path(os.environ.get("REFLCOLOR_DATA") or ROOT.parent / "shared" / "data")
+    if not folder.is_dir():
+        reason = f"needs the shared scans: {folder} is no folder (set REFLCOLOR_DATA)"
+        if IN_CI:
+            pytest.fail(reason)
+        pytest.skip(reason)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def extension_zip():
+    """The built zip: REFLCOLOR_ZIP, or what `make build` left for this platform and Python, of the present sources."""
+    if named := os.environ.get("REFLCOLOR_ZIP"):
+        return Path(named).resolve(strict=True)
+    path = zip_path(host_platform(), (running_python(),))
+    if not path.is_file():
+        pytest.fail(f"{path} is not there: run make build")
+    with zipfile.ZipFile(path) as archive:
+        for name in archive.namelist():
+            source = ROOT / name
+            if name.endswith(".py") and not (source.is_file() and source.read_bytes() == archive.read(name)):
+                pytest.fail(f"{path.name} holds another {name} than the source tree: run make build")
+    return path
+
+
+@pytest.fixture(scope="session")
+def _bare_blender(tmp_path_factory):
+    resources = tmp_path_factory.mktemp("blender")
+    bpy = blender_session.open_blender(resources)
+    yield bpy, footprint(bpy)
+    shutil.rmtree(resources, ignore_errors=True)
+
+
+@pytest.fixture(scope="session")
+def bare_footprint(_bare_blender):
+    """What was registered in Blender before the extension came."""
+    return _bare_blender[1]
+
+
+@pytest.fixture(scope="session")
+def installed_blender(_bare_blender, extension_zip):
+    """bpy with the zip installed and enabled, once for all tests of the process."""
+    bpy = _bare_blender[0]
+    blender_session.enable(bpy, extension_zip)
+    return bpy
+
+
+@pytest.fixture
+def blender(installed_blender):
+    """bpy with the extension enabled and an empty scene, made anew for every test."""
+    installed_blender.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    return installed_blender
+
+
+@pytest.fixture(scope="session")
+def blender_command(extension_zip, tmp_path_factory):
+    """A function that runs `blender -b --command reflcolor ARGUMENT...` in a process of its own, from the zip.
+
+    It returns the finished process, with `returncode`, `stdout` and `stderr` as text.
+    """
+    resources = tmp_path_factory.mktemp("command")
+
+    def run(*arguments, cwd=None, timeout=120):
+        line = [sys.executable, ROOT / "tools" / "blender_command.py", "--zip", extension_zip, "--resources", resources]
+        line += ["--", *arguments]
+        return subprocess.run(
+            [str(part) for part in line], cwd=cwd, timeout=timeout, capture_output=True, text=True, check=False
+        )
+
+    yield run
+    shutil.rmtree(resources, ignore_errors=True)
+
+
+class _RootIsNoPackage:
+    """Keeps pytest from importing the extension's __init__.py, and with it bpy, as the package that tests/ lies in."""
+
+    @staticmethod
+    def pytest_collect_directory(path, parent):
+        return pytest.Dir.from_parent(parent, path=path) if path == ROOT else None
+
+
+def pytest_configure(config):
+    """A conftest's own hooks see only what lies below it; a plugin's see the root, too."""
+    config.pluginmanager.register(_RootIsNoPackage())
+
+
+def pytest_collection_modifyitems(items):
+    """Mark the tests that need bpy in the process, so that they can run in one of their own."""
+    for item in items:
+        if "_bare_blender" in getattr(item, "fixturenames", ()):
+            item.add_marker("blender")
+
+
+def pytest_sessionfinish(session, exitstatus):
+    """Keep the status for the way out."""
+    session.config.stash[EXIT_STATUS] = int(exitstatus)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure(config):
+    """Leave at once where bpy is loaded, after pytest's closing line: bpy 4.5 can hang at the interpreter's end."""
+    if "bpy" in sys.modules:
+        config.get_terminal_writer().flush()
+        blender_session.end(config.stash.get(EXIT_STATUS, 1))

@@ -1,0 +1,93 @@
+"""Small E57 files of every kind that the standard allows, for the tests of the reader."""
+
+import struct
+import uuid
+
+import numpy as np
+
+_PAGE, _PAYLOAD = 1024, 1020
+
+
+def write_e57(path, *scans):
+    """Write an E57 file.
+
+    Parameters
+    ----------
+    path : path-like
+    *scans : dict
+        `fields`: name to (N,) array, floats stored as doubles, whole numbers as integers; the other keys become
+        children of the scan: dicts structures, texts strings, numbers as `fields` are.
+    """
+    from pye57 import libe57
+
+    file = libe57.ImageFile(str(path), "w")
+
+    def node_of(value):
+        if isinstance(value, dict):
+            node = libe57.StructureNode(file)
+            for name, child in value.items():
+                node.set(name, node_of(child))
+            return node
+        if isinstance(value, str):
+            return libe57.StringNode(file, value)
+        return libe57.IntegerNode(file, value) if isinstance(value, int) else libe57.FloatNode(file, value)
+
+    root = file.root()
+    file.extensionsAdd("", libe57.E57_V1_0_URI)
+    for name, value in {
+        "formatName": "ASTM E57 3D Imaging Data File",
+        "guid": "{" + str(uuid.UUID(int=1)) + "}",
+        "versionMajor": 1,
+        "versionMinor": 0,
+    }.items():
+        root.set(name, node_of(value))
+    data3d = libe57.VectorNode(file, True)
+    root.set("data3D", data3d)
+    for scan in scans:
+        node = node_of({key: value for key, value in scan.items() if key != "fields"})
+        prototype, buffers, kept = libe57.StructureNode(file), libe57.VectorSourceDestBuffer(), []
+        for name, values in scan["fields"].items():
+            values = np.asarray(values)
+            kept.append(values.astype(np.float64))
+            if values.dtype.kind == "f":
+                prototype.set(name, libe57.FloatNode(file, 0.0))
+            else:
+                low, high = (int(values.min()), int(values.max())) if values.size else (0, 0)
+                prototype.set(name, libe57.IntegerNode(file, low, low, high))
+            buffers.append(libe57.SourceDestBuffer(file, name, kept[-1], max(1, values.size), True, True))
+        points = libe57.CompressedVectorNode(file, prototype, libe57.VectorNode(file, True))
+        node.set("points", points)
+        data3d.append(node)
+        writer = points.writer(buffers)
+        if kept[0].size:
+            writer.write(kept[0].size)
+        writer.close()
+    file.close()
+
+
+def with_valid_checksums(data):
+    """The same pages with the checksums that their contents have now: damage that only its meaning gives away."""
+    pages = []
+    for start in range(0, len(data) - _PAGE + 1, _PAGE):
+        payload = data[start : start + _PAYLOAD]
+        pages.append(payload + struct.pack(">I", _crc32c(payload)))
+    return b"".join(pages)
+
+
+def _crc32c(data):
+    value = 0xFFFFFFFF
+    for byte in data:
+        value = _TABLE[(value ^ byte) & 0xFF] ^ (value >> 8)
+    return value ^ 0xFFFFFFFF
+
+
+def _table():
+    table = []
+    for byte in range(256):
+        for _ in range(8):
+            byte = (byte >> 1) ^ (0x82F63B78 if byte & 1 else 0)
+        table.append(byte)
+    return table
+
+
+_TABLE = _table()
