@@ -1,0 +1,30 @@
+"""Color for laser scans that have none: geodesic colorization of a structured scan from a few seeds.
+
+The method is that of Oishi, Kurazume, Iwashita and Hasegawa, "Colorization of 3D Geometric Model utilizing Laser
+Reflectivity" (ICRA 2013). Everything here works on plain NumPy arrays and needs no Blender.
+"""
+
+from .colorize import Colorization, colorize
+from .errors import Cancelled, ImageError, OutputError, ReflcolorError, ScanError, SeedsError, SettingsError
+from .geodesic import geodesic_distances
+from .readers import read_scans
+from .scan import Scan
+from .seeds import Seeds
+from .settings import Settings
+
+__all__ = [
+    "Cancelled",
+    "Colorization",
+    "ImageError",
+    "OutputError",
+    "ReflcolorError",
+    "Scan",
+    "ScanError",
+    "Seeds",
+    "SeedsError",
+    "Settings",
+    "SettingsError",
+    "colorize",
+    "geodesic_distances",
+    "read_scans",
+]

@@ -1,0 +1,8 @@
+"""The verbs of the command line, one module each.
+
+A verb's module has ``NAME`` and ``HELP``, ``add_arguments(parser)`` and ``run(arguments, session)``.
+"""
+
+from . import colorize, info
+
+VERBS = (info, colorize)

@@ -1,0 +1,78 @@
+"""What every verb is given besides its arguments."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..console import Console
+from ..errors import Cancelled, UsageError
+from ..readers import read_scans
+
+
+@dataclass(kw_only=True)
+class Session:
+    """One run of the command line.
+
+    Parameters
+    ----------
+    console : Console
+    cancelled : callable
+        Whether the work should end.
+    scene_writer : callable or None
+        Writes what only Blender can write (see ``cli.main``); None without Blender.
+    blender : str or None
+        Blender's version; None without Blender.
+    written : list of Path
+        The results that are there, whole; for the message when a later one fails.
+    """
+
+    console: Console
+    cancelled: Callable[[], bool]
+    scene_writer: Callable | None = None
+    blender: str | None = None
+    written: list[Path] = field(default_factory=list)
+
+    def progress(self, fraction, text):
+        """Show progress; for work that can be told to end by nothing else, this is where it ends.
+
+        Raises
+        ------
+        Cancelled
+            If the work should end.
+        """
+        if self.cancelled():
+            raise Cancelled
+        self.console.progress(fraction, text)
+
+    def read_scans(self, path):
+        """Read all scans of a file, with progress; print nothing else."""
+        return read_scans(path, progress=self.progress, cancelled=self.cancelled)
+
+
+def choose_scan(scans, wanted, path):
+    """Return the index (from 1) and the scan that ``--scan`` names.
+
+    Parameters
+    ----------
+    scans : list of Scan
+    wanted : str or None
+        A name or, where no scan has that name, an index counted from 1. None: the only scan there is.
+    path : Path
+        The file, for messages.
+
+    Raises
+    ------
+    UsageError
+        If it names no scan or several, or names none where there are several.
+    """
+    indexed = list(enumerate(scans, 1))
+    listing = ", ".join(f"{index} ({scan.name})" for index, scan in indexed)
+    if wanted is None:
+        found, problem = indexed, f"{path} holds {len(scans)} scans"
+    else:
+        found = [(index, scan) for index, scan in indexed if scan.name == wanted]
+        found = found or [(index, scan) for index, scan in indexed if str(index) == wanted]
+        problem = f"--scan {wanted} means {len(found) or 'none'} of the scans in {path}"
+    if len(found) != 1:
+        raise UsageError(f"{problem}; choose one by --scan NAME or --scan INDEX: {listing}")
+    return found[0]

@@ -1,0 +1,39 @@
+"""Large coordinates brought near the origin, where float32 still resolves a millimetre."""
+
+import numpy as np
+
+# Metres; beyond this a float32 is coarser than about a millimetre.
+FAR = 10_000.0
+_ROUND_TO = 1000.0
+
+
+def origin_shift(position, known=None):
+    """Return what to subtract from world coordinates so that they fit into float32.
+
+    Parameters
+    ----------
+    position : (3,) float64
+        A scan's place in the world, metres.
+    known : (3,) float64, optional
+        The shift of scans that came before; kept where it serves this one too, so that they stay together.
+
+    Returns
+    -------
+    (3,) float64
+        Whole kilometres on each axis where the position is far out; 0 elsewhere.
+    """
+    position = np.asarray(position, np.float64)
+    if known is not None and np.all(np.abs(position - known) < FAR):
+        return np.asarray(known, np.float64)
+    return np.where(np.abs(position) > FAR, np.round(position / _ROUND_TO) * _ROUND_TO, 0.0)
+
+
+def local_center(scan):
+    """Return the (3,) float64 point, in the scanner's frame, that its vertices should be measured from.
+
+    It is the scanner itself but for files whose points are stored in world coordinates.
+    """
+    points = scan.points[scan.valid]
+    if points.size == 0 or np.abs(points).max() <= FAR:
+        return np.zeros(3)
+    return np.round(np.median(points, axis=0) / _ROUND_TO) * _ROUND_TO

@@ -1,0 +1,58 @@
+"""Scans into a PTX file."""
+
+import numpy as np
+
+from ..atomic import written_atomically
+
+_NO_RETURN = "0 0 0 0.500000"
+
+
+def write_ptx(scans, path):
+    """Write scans one after the other into a PTX: columns left to right, each from the bottom to the top.
+
+    Parameters
+    ----------
+    scans : Scan or sequence of Scan
+        Points keep six decimals (micrometres), reflectance six as well, as it is.
+    path : path-like
+
+    Raises
+    ------
+    OutputError
+        If the file cannot be written; nothing is left behind then.
+    """
+    scans = [scans] if hasattr(scans, "points") else list(scans)
+    with written_atomically(path) as temporary, temporary.open("w", encoding="ascii", newline="\n") as file:
+        for scan in scans:
+            _write_header(file, scan)
+            _write_points(file, scan)
+
+
+def _write_header(file, scan):
+    height, width = scan.shape
+    rotation, position = scan.pose[:3, :3], scan.pose[:3, 3]
+    file.write(f"{width}\n{height}\n")
+    # Scanner's position and axes, then the same as a matrix for row vectors: translation in the last row.
+    for vector in (position, *rotation.T):
+        file.write(_numbers(vector) + "\n")
+    for row in scan.pose.T:
+        file.write(_numbers(row) + "\n")
+
+
+def _numbers(vector):
+    # Adding zero turns -0 into 0.
+    return " ".join(f"{value + 0.0:.12g}" for value in vector)
+
+
+def _write_points(file, scan):
+    columns = [scan.points[..., axis] + 0.0 for axis in range(3)] + [scan.reflectance]
+    line = "%.6f %.6f %.6f %.6f"
+    blank = _NO_RETURN
+    if scan.color is not None:
+        columns += [scan.color[..., channel] for channel in range(3)]
+        line, blank = line + " %d %d %d", blank + " 0 0 0"
+    for column in range(scan.shape[1]):
+        values = np.stack([grid[::-1, column] for grid in columns], axis=1).tolist()
+        valid = scan.valid[::-1, column].tolist()
+        lines = [line % tuple(row) if there else blank for row, there in zip(values, valid, strict=True)]
+        file.write("\n".join(lines) + "\n")
