@@ -1,0 +1,54 @@
+"""Colorize a scan from its seeds."""
+
+import bpy
+
+from ..reflcolor_addon.colorize import colorize
+from . import polls
+from .images import write_image
+from .jobs import JobOperator
+from .properties import ColorizeSettings, core_settings
+from .scan_object import COLORIZED, add_colors, grid_indices, scan_of, show_colors
+from .seed_list import seeds_of
+
+
+class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
+    """Spread the colors of the seeds over the whole scan, along paths of like reflectance and range"""
+
+    bl_idname = "reflcolor.colorize"
+    bl_label = "Colorize"
+    bl_options = {"REGISTER", "UNDO"}
+    job_name = "Colorize"
+
+    @classmethod
+    def poll(cls, context):
+        return polls.has_seeds(cls, context)
+
+    def prepare(self, context):
+        obj = polls.scan_object(context)
+        # A name, not the object: it may be gone, or be another one after an undo, when the work is done.
+        self._object_name = obj.name
+        scan, seeds = scan_of(obj), seeds_of(obj)
+        settings = core_settings(self, context.scene.reflcolor)
+        return lambda progress, cancelled: colorize(scan, seeds, settings, progress=progress, cancelled=cancelled)
+
+    def finish(self, context, result):
+        obj = bpy.data.objects.get(self._object_name)
+        if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != result.rgb.shape[:2]:
+            self.report({"WARNING"}, f"{self._object_name} is gone; its colors were dropped")
+            return
+        show_colorization(context, obj, result)
+        for warning in result.warnings:
+            self.report({"WARNING"}, warning)
+        self.report({"INFO"}, f"Colorized {obj.name} from {len(result.seeds)} seeds")
+
+
+def show_colorization(context, obj, colorization):
+    """Write a Colorization onto its object: color attribute, material and image."""
+    add_colors(obj, COLORIZED, colorization.rgb[grid_indices(obj)])
+    show_colors(context, obj, COLORIZED)
+    state = obj.reflcolor
+    name = f"{obj.name} {COLORIZED}"
+    state.colorized_image = write_image(state.colorized_image, name, colorization.rgb, is_data=False)
+
+
+classes = (REFLCOLOR_OT_colorize,)

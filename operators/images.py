@@ -1,0 +1,60 @@
+"""NumPy arrays to and from Blender's images, which store rows from the bottom up."""
+
+import bpy
+import numpy as np
+
+
+def write_image(image, name, pixels, *, is_data):
+    """Put pixels into an image and keep it in the .blend; ``image`` is replaced in place, or made if None.
+
+    Parameters
+    ----------
+    image : bpy.types.Image or None
+    name : str
+        For a new image.
+    pixels : (H, W) float32 of 0..1, or (H, W, 3) uint8
+    is_data : bool
+        Whether the values are no colors.
+
+    Returns
+    -------
+    bpy.types.Image
+    """
+    height, width = pixels.shape[:2]
+    if image is None:
+        image = bpy.data.images.new(name, width, height, alpha=False, is_data=is_data)
+    elif tuple(image.size) != (width, height):
+        image.scale(width, height)
+    rgba = np.ones((height, width, 4), np.float32)
+    if pixels.dtype == np.uint8:
+        np.divide(pixels[::-1], np.float32(255), out=rgba[..., :3])
+    else:
+        rgba[..., :3] = pixels[::-1, :, None]
+    image.pixels.foreach_set(rgba.ravel())
+    image.update()
+    image.pack()
+    return image
+
+
+def read_pixel(image, x, y):
+    """Return the (r, g, b) of 0..1, as stored, of the image's pixel that contains a point measured from the top left.
+
+    Returns None where the point is outside, or the image cannot be read.
+    """
+    width, height = image.size
+    if not image.has_data or not (0 <= x <= width and 0 <= y <= height) or image.channels < 3:
+        return None
+    column, row = min(int(x), width - 1), height - 1 - min(int(y), height - 1)
+    start = (row * width + column) * image.channels
+    return tuple(image.pixels[start : start + 3])
+
+
+def show_image(context, image):
+    """Show an image in an Image Editor of the window; return whether there was one."""
+    if context.window is None:
+        return False
+    for area in context.window.screen.areas:
+        if area.type == "IMAGE_EDITOR":
+            area.spaces.active.image = image
+            return True
+    return False

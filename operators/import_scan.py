@@ -1,0 +1,177 @@
+"""Import a scan."""
+
+from math import degrees, radians
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..reflcolor_addon.errors import ScanError
+from ..reflcolor_addon.grid_mesh import MAX_INCIDENCE_DEG, grid_mesh
+from ..reflcolor_addon.image_files import IMAGE_SUFFIXES
+from ..reflcolor_addon.orientation import flipped
+from ..reflcolor_addon.readers import SCAN_SUFFIXES, read_scans
+from ..reflcolor_addon.readers.pair_description import describe_pair
+from .jobs import JobOperator
+from .scan_object import add_scan_object
+
+_PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
+
+_SENSOR_PROPERTIES = {
+    "spherical": ("azimuth_left", "azimuth_right", "elevation_bottom", "elevation_top"),
+    "pinhole": ("focal_x", "focal_y", "center_x", "center_y"),
+}
+
+
+class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
+    """Import a structured laser scan (PTX, E57, or a range and a reflectance image) as a mesh"""
+
+    bl_idname = "reflcolor.import_scan"
+    bl_label = "Import Laser Scan"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    job_name = "Import Laser Scan"
+
+    filter_glob: StringProperty(default=_PATTERN, options={"HIDDEN"})
+    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
+    files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
+    max_incidence: FloatProperty(
+        name="Grazing Angle",
+        description="Faces steeper than this against the viewing ray are jumps between surfaces and are left out",
+        subtype="ANGLE",
+        default=radians(MAX_INCIDENCE_DEG),
+        min=radians(45),
+        max=radians(90),
+    )
+    flip_vertical: BoolProperty(
+        name="Flip Vertically", description="Turn the scan's grid upside down, where the file's order is misread"
+    )
+    flip_horizontal: BoolProperty(
+        name="Flip Horizontally", description="Mirror the scan's grid, where the file's order is misread"
+    )
+    sensor: EnumProperty(
+        name="Sensor",
+        description="How the pixels of a range image look into the scene",
+        items=(
+            ("spherical", "Spherical", "Equal angles from pixel to pixel, as a turning laser scanner has them"),
+            ("pinhole", "Pinhole", "A camera's perspective, as a time-of-flight camera has it"),
+        ),
+    )
+    range_scale: FloatProperty(
+        name="Range Scale",
+        description="Metres for one unit of the range image; 0.001 for millimetres",
+        default=0.001,
+        min=1e-9,
+        soft_max=1,
+        precision=6,
+    )
+    azimuth_left: FloatProperty(
+        name="Left Edge",
+        description="Direction of the image's left edge, to the right from straight ahead",
+        subtype="ANGLE",
+        default=radians(-180),
+    )
+    azimuth_right: FloatProperty(
+        name="Right Edge",
+        description="Direction of the image's right edge, to the right from straight ahead",
+        subtype="ANGLE",
+        default=radians(180),
+    )
+    elevation_bottom: FloatProperty(
+        name="Bottom Edge",
+        description="Direction of the image's bottom edge, up from the horizon",
+        subtype="ANGLE",
+        default=radians(-45),
+        min=radians(-90),
+        max=radians(90),
+    )
+    elevation_top: FloatProperty(
+        name="Top Edge",
+        description="Direction of the image's top edge, up from the horizon",
+        subtype="ANGLE",
+        default=radians(90),
+        min=radians(-90),
+        max=radians(90),
+    )
+    focal_x: FloatProperty(name="Focal Length X", description="Focal length across, in pixels", default=500, min=1e-3)
+    focal_y: FloatProperty(name="Focal Length Y", description="Focal length down, in pixels", default=500, min=1e-3)
+    center_x: FloatProperty(
+        name="Center X",
+        description="Principal point across, in pixels from the center of the first column",
+        default=320,
+    )
+    center_y: FloatProperty(
+        name="Center Y", description="Principal point down, in pixels from the center of the first row", default=240
+    )
+    swap_images: BoolProperty(name="Swap Images", description="Take the other one of the two images as the range image")
+
+    def invoke(self, context, event):
+        if self.filepath:
+            return self.start(context)
+        self._browsed = True
+        return ImportHelper.invoke(self, context, event)
+
+    def execute(self, context):
+        # Back from the file browser there is a window to show progress in; a script wants the result at once.
+        return self.start(context) if getattr(self, "_browsed", False) else self.run_blocking(context)
+
+    def prepare(self, context):
+        paths = [Path(self.directory, file.name) for file in self.files if file.name] or [Path(self.filepath)]
+        pair = [path for path in paths if path.suffix.lower() in IMAGE_SUFFIXES]
+        sensor, range_scale, swap = self._sensor_model(), self.range_scale, self.swap_images
+        flips = {"vertical": self.flip_vertical, "horizontal": self.flip_horizontal}
+        max_incidence_deg = degrees(self.max_incidence)
+        if pair and (len(pair) != 2 or len(paths) != 2):
+            raise ScanError(f"{pair[0].name}: pick two images together, one of range and one of reflectance")
+
+        def work(progress, cancelled):
+            files = [describe_pair(*pair, sensor, range_scale=range_scale, swap=swap)] if pair else paths
+            scans = [scan for path in files for scan in read_scans(path, progress=progress, cancelled=cancelled)]
+            if any(flips.values()):
+                scans = [flipped(scan, **flips) for scan in scans]
+            return [(scan, grid_mesh(scan, max_incidence_deg)) for scan in scans]
+
+        return work
+
+    def finish(self, context, result):
+        for scan, mesh_data in result:
+            add_scan_object(context, scan, mesh_data)
+            for warning in scan.warnings:
+                self.report({"WARNING"}, warning)
+        self.report({"INFO"}, f"Imported {', '.join(scan.name for scan, _ in result)}")
+
+    def _sensor_model(self):
+        if self.sensor == "pinhole":
+            values = {"fx": self.focal_x, "fy": self.focal_y, "cx": self.center_x, "cy": self.center_y}
+        else:
+            values = {
+                "azimuth_deg": (degrees(self.azimuth_left), degrees(self.azimuth_right)),
+                "elevation_deg": (degrees(self.elevation_bottom), degrees(self.elevation_top)),
+            }
+        return {"type": self.sensor, **values}
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.prop(self, "max_incidence")
+        layout.prop(self, "flip_vertical")
+        layout.prop(self, "flip_horizontal")
+        header, body = layout.panel("REFLCOLOR_import_image_pair", default_closed=True)
+        header.label(text="Image Pair")
+        if body is None:
+            return
+        body.label(text="For a range and a reflectance image picked together", icon="INFO")
+        body.prop(self, "sensor")
+        for name in _SENSOR_PROPERTIES[self.sensor]:
+            body.prop(self, name)
+        body.prop(self, "range_scale")
+        body.prop(self, "swap_images")
+
+
+def draw_menu(self, _context):
+    """Entry of File > Import."""
+    self.layout.operator(REFLCOLOR_OT_import_scan.bl_idname, text="Laser Scan (.ptx, .e57, .scan.json, image pair)")
+
+
+classes = (REFLCOLOR_OT_import_scan,)

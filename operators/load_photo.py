@@ -1,0 +1,35 @@
+"""Load a photo to take colors from."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..reflcolor_addon.image_files import IMAGE_SUFFIXES, read_image
+from .images import show_image, write_image
+from .reports import reported
+
+
+class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
+    """Load an ordinary photo, from any camera and any place, to take colors from"""
+
+    bl_idname = "reflcolor.load_photo"
+    bl_label = "Load Photo"
+    bl_options = {"REGISTER", "UNDO"}
+
+    filter_glob: StringProperty(default=";".join(f"*{suffix}" for suffix in IMAGE_SUFFIXES), options={"HIDDEN"})
+
+    @reported
+    def execute(self, context):
+        path = Path(self.filepath)
+        pixels = read_image(path)
+        # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
+        image = write_image(None, path.name, pixels, is_data=False)
+        context.scene.reflcolor.photo = image
+        show_image(context, image)
+        self.report({"INFO"}, f"Loaded {path.name}: {image.size[0]} x {image.size[1]} pixels")
+        return {"FINISHED"}
+
+
+classes = (REFLCOLOR_OT_load_photo,)

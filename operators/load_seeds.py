@@ -1,0 +1,42 @@
+"""Load seeds from a file."""
+
+import bpy
+from bpy.props import BoolProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..reflcolor_addon.seeds import Seeds
+from . import polls
+from .reports import reported
+from .scan_object import scan_of
+from .seed_list import append_seeds
+
+
+class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
+    """Load seeds for the scan from a JSON file"""
+
+    bl_idname = "reflcolor.load_seeds"
+    bl_label = "Load Seeds"
+    bl_options = {"REGISTER", "UNDO"}
+
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+    replace: BoolProperty(name="Replace", description="Remove the seeds that are there before", default=True)
+
+    @classmethod
+    def poll(cls, context):
+        return polls.has_scan(cls, context)
+
+    @reported
+    def execute(self, context):
+        obj = polls.scan_object(context)
+        seeds = Seeds.load(self.filepath)
+        _, warnings = seeds.placed_on(scan_of(obj))
+        if self.replace:
+            obj.reflcolor.seeds.clear()
+        append_seeds(obj, seeds)
+        for warning in warnings:
+            self.report({"WARNING"}, warning)
+        self.report({"INFO"}, f"Loaded {len(seeds)} seeds")
+        return {"FINISHED"}
+
+
+classes = (REFLCOLOR_OT_load_seeds,)

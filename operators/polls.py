@@ -1,0 +1,26 @@
+"""When an operator can run, and what to do when it cannot."""
+
+
+def has_scan(cls, context):
+    """A scan's object is active."""
+    if scan_object(context) is None:
+        cls.poll_message_set("Import a scan, or select one, first")
+        return False
+    return True
+
+
+def has_seeds(cls, context):
+    """A scan's object is active and has seeds."""
+    if not has_scan(cls, context):
+        return False
+    if not scan_object(context).reflcolor.seeds:
+        cls.poll_message_set("Add a seed first")
+        return False
+    return True
+
+
+def scan_object(context):
+    """Return the active object if it is a scan, else None."""
+    active = context.active_object
+    is_scan = active is not None and active.type == "MESH" and active.reflcolor.rows > 0
+    return active if is_scan else None

@@ -1,0 +1,30 @@
+"""Remove a seed of a scan."""
+
+import bpy
+
+from . import polls
+from .reports import reported
+from .seed_list import SeedChoice
+
+
+class REFLCOLOR_OT_remove_seed(SeedChoice, bpy.types.Operator):
+    """Remove a seed of the scan"""
+
+    bl_idname = "reflcolor.remove_seed"
+    bl_label = "Remove Seed"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return polls.has_seeds(cls, context)
+
+    @reported
+    def execute(self, context):
+        obj = polls.scan_object(context)
+        state = obj.reflcolor
+        state.seeds.remove(self.chosen(obj))
+        state.active_seed = min(state.active_seed, max(0, len(state.seeds) - 1))
+        return {"FINISHED"}
+
+
+classes = (REFLCOLOR_OT_remove_seed,)

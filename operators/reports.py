@@ -1,0 +1,19 @@
+"""How an operator tells a person what is wrong."""
+
+from functools import wraps
+
+from ..reflcolor_addon.errors import ReflcolorError
+
+
+def reported(execute):
+    """Make an operator's method report bad input as its one line and end cancelled; anything else is a defect."""
+
+    @wraps(execute)
+    def reporting(self, context):
+        try:
+            return execute(self, context)
+        except ReflcolorError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+
+    return reporting

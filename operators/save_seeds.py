@@ -1,0 +1,34 @@
+"""Save seeds to a file."""
+
+import bpy
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from . import polls
+from .reports import reported
+from .seed_list import seeds_of
+
+
+class REFLCOLOR_OT_save_seeds(bpy.types.Operator, ExportHelper):
+    """Save the seeds of the scan as a JSON file, for the command line or another scan of the same place"""
+
+    bl_idname = "reflcolor.save_seeds"
+    bl_label = "Save Seeds"
+    bl_options = {"REGISTER"}
+
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        return polls.has_seeds(cls, context)
+
+    @reported
+    def execute(self, context):
+        seeds = seeds_of(polls.scan_object(context))
+        seeds.save(self.filepath)
+        self.report({"INFO"}, f"Saved {len(seeds)} seeds to {self.filepath}")
+        return {"FINISHED"}
+
+
+classes = (REFLCOLOR_OT_save_seeds,)

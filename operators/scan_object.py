@@ -1,0 +1,177 @@
+"""A scan as an object of Blender, and back."""
+
+import bpy
+import numpy as np
+
+from ..reflcolor_addon.errors import ScanError
+from ..reflcolor_addon.georeference import local_center, origin_shift
+from ..reflcolor_addon.normalization import normalize
+from ..reflcolor_addon.scan import Scan
+from .images import write_image
+
+GRAY = "Reflectance Gray"
+COLORIZED = "Colorized"
+SCANNED = "Scanned Color"
+SHIFT = "reflcolor_shift"
+CENTER = "reflcolor_center"
+
+
+def add_scan_object(context, scan, mesh_data):
+    """Make the object of a scan, with mesh, attributes, images and material; select it and make it active.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    scan : Scan
+    mesh_data : GridMesh
+        From ``grid_mesh(scan)``.
+    """
+    scene = context.scene
+    center = local_center(scan)
+    pose = scan.pose.copy()
+    pose[:3, 3] = scan.pose[:3, :3] @ center + scan.pose[:3, 3]
+    shift = origin_shift(pose[:3, 3], scene.get(SHIFT))
+    per_metre = 1 / scene.unit_settings.scale_length
+    pose[:3, 3] = (pose[:3, 3] - shift) * per_metre
+
+    mesh = bpy.data.meshes.new(scan.name)
+    _fill_mesh(mesh, scan, mesh_data, (scan.points[scan.valid] - center) * per_metre)
+    obj = bpy.data.objects.new(scan.name, mesh)
+    obj.matrix_world = pose.tolist()
+    # Doubles: a shift of six digits does not fit into a float property.
+    obj[SHIFT] = scene[SHIFT] = shift.tolist()
+    mesh[CENTER] = center.tolist()
+    height, width = scan.shape
+    state = obj.reflcolor
+    state.rows, state.cols = height, width
+    state.source = str(scan.source or "")
+    luminance, _ = normalize(scan.reflectance, scan.valid)
+    range_image, _ = normalize(scan.range, scan.valid)
+    state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=True)
+    state.range_image = write_image(None, f"{scan.name} Range", range_image / 255, is_data=True)
+    add_colors(obj, GRAY, np.repeat(np.rint(luminance).astype(np.uint8)[scan.valid, None], 3, axis=1))
+    if scan.color is not None:
+        add_colors(obj, SCANNED, scan.color[scan.valid])
+    mesh.materials.append(_material(scan.name))
+    show_colors(context, obj, GRAY)
+
+    context.collection.objects.link(obj)
+    for other in context.selected_objects:
+        other.select_set(False)
+    obj.select_set(True)
+    context.view_layer.objects.active = obj
+    return obj
+
+
+def scan_of(obj):
+    """Return the Scan that an object was made from, read back from its mesh.
+
+    Raises
+    ------
+    ScanError
+        If the mesh has lost the attributes that tie its vertices to the scan's grid.
+    """
+    mesh, state = obj.data, obj.reflcolor
+    rows, cols = grid_indices(obj)
+    reflectance = np.zeros((state.rows, state.cols), np.float32)
+    reflectance[rows, cols] = _read_attribute(obj, "reflectance", np.float32)
+    coordinates = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", coordinates)
+    metres = bpy.context.scene.unit_settings.scale_length
+    points = np.zeros((state.rows, state.cols, 3))
+    points[rows, cols] = coordinates.reshape(-1, 3).astype(np.float64) * metres + np.array(mesh.get(CENTER, (0, 0, 0)))
+    valid = np.zeros((state.rows, state.cols), bool)
+    valid[rows, cols] = True
+    return Scan(name=obj.name, points=points, reflectance=reflectance, valid=valid)
+
+
+def grid_indices(obj):
+    """Return (N,) rows and (N,) columns of the scan's grid, one of each per vertex.
+
+    Raises
+    ------
+    ScanError
+        If the attributes are gone or point outside the grid.
+    """
+    rows, cols = (_read_attribute(obj, name, np.int32) for name in ("grid_row", "grid_col"))
+    state = obj.reflcolor
+    if rows.size and (rows.min() < 0 or cols.min() < 0 or rows.max() >= state.rows or cols.max() >= state.cols):
+        raise ScanError(f"{obj.name}: grid_row and grid_col point outside the scan; import the scan again")
+    return rows, cols
+
+
+def add_colors(obj, name, rgb):
+    """Write (N, 3) uint8 sRGB, one per vertex, as a color attribute of that name; one that is there is replaced."""
+    mesh = obj.data
+    attribute = mesh.color_attributes.get(name)
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "BYTE_COLOR"):
+        mesh.color_attributes.remove(attribute)
+        attribute = None
+    if attribute is None:
+        attribute = mesh.color_attributes.new(name, "BYTE_COLOR", "POINT")
+    rgba = np.ones((len(mesh.vertices), 4), np.float32)
+    rgba[:, :3] = rgb / np.float32(255)
+    attribute.data.foreach_set("color_srgb", rgba.ravel())
+    mesh.update()
+
+
+def show_colors(context, obj, name):
+    """Make a color attribute the one that is seen: in viewports, renders and exports."""
+    mesh = obj.data
+    mesh.color_attributes.active_color_name = name
+    mesh.color_attributes.render_color_index = mesh.color_attributes.find(name)
+    for material in filter(None, mesh.materials):
+        for node in material.node_tree.nodes if material.node_tree else ():
+            if node.type == "VERTEX_COLOR":
+                node.layer_name = name
+    if context.window_manager is None:
+        return
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
+                area.spaces.active.shading.color_type = "VERTEX"
+
+
+def _fill_mesh(mesh, scan, mesh_data, coordinates):
+    """Vertices, faces, UV map and attributes, in bulk."""
+    faces = len(mesh_data.quads)
+    mesh.vertices.add(len(coordinates))
+    mesh.vertices.foreach_set("co", coordinates.astype(np.float32).ravel())
+    mesh.loops.add(4 * faces)
+    mesh.loops.foreach_set("vertex_index", mesh_data.quads.ravel())
+    mesh.polygons.add(faces)
+    mesh.polygons.foreach_set("loop_start", np.arange(0, 4 * faces, 4, dtype=np.int32))
+    mesh.update(calc_edges=True)
+    uv = mesh.uv_layers.new(name="Scan Grid")
+    uv.uv.foreach_set("vector", mesh_data.uv.ravel())
+    for name, kind, values in (
+        ("reflectance", "FLOAT", scan.reflectance[scan.valid]),
+        ("range", "FLOAT", scan.range[scan.valid].astype(np.float32)),
+        ("grid_row", "INT", mesh_data.rows),
+        ("grid_col", "INT", mesh_data.cols),
+    ):
+        mesh.attributes.new(name, kind, "POINT").data.foreach_set("value", np.ascontiguousarray(values))
+
+
+def _read_attribute(obj, name, dtype):
+    attribute = obj.data.attributes.get(name)
+    kind = {np.float32: "FLOAT", np.int32: "INT"}[dtype]
+    if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", kind):
+        raise ScanError(f"{obj.name}: the mesh has lost its attribute {name}; undo what removed it, or import again")
+    values = np.empty(len(attribute.data), dtype)
+    attribute.data.foreach_get("value", values)
+    return values
+
+
+def _material(name):
+    """A matte material that takes its color from a named Color Attribute node."""
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Roughness"].default_value = 1.0
+    shader.inputs["Specular IOR Level"].default_value = 0.0
+    color = nodes.new("ShaderNodeVertexColor")
+    color.location = (shader.location.x - 250, shader.location.y)
+    links.new(color.outputs["Color"], shader.inputs["Base Color"])
+    return material

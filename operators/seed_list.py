@@ -1,0 +1,69 @@
+"""The seeds of an object, to and from the core's Seeds."""
+
+import bpy
+import numpy as np
+from bpy.props import IntProperty
+
+from ..reflcolor_addon.errors import SeedsError
+from ..reflcolor_addon.seeds import Seeds
+
+
+class SeedPlace:
+    """A pixel of the scan, as properties of an operator."""
+
+    row: IntProperty(name="Row", description="Row of the scan's grid, 0 at the top", min=0)
+    col: IntProperty(name="Column", description="Column of the scan's grid, 0 at the left", min=0)
+
+    def check_place(self, obj):
+        """Raise SeedsError where the pixel is outside the object's grid."""
+        rows, cols = obj.reflcolor.rows, obj.reflcolor.cols
+        if self.row >= rows or self.col >= cols:
+            raise SeedsError(
+                f"row {self.row}, column {self.col} is outside the scan's grid "
+                f"(rows 0 to {rows - 1}, columns 0 to {cols - 1})"
+            )
+
+
+class SeedChoice:
+    """One of the seeds that are there, as a property of an operator."""
+
+    index: IntProperty(name="Seed", description="Seed counted from 0, or -1 for the selected one", default=-1, min=-1)
+
+    def chosen(self, obj):
+        """Return the index of the chosen seed; raise SeedsError where there is none."""
+        state = obj.reflcolor
+        index = state.active_seed if self.index < 0 else self.index
+        if not 0 <= index < len(state.seeds):
+            raise SeedsError(f"there is no seed {index}; the scan has seeds 0 to {len(state.seeds) - 1}")
+        return index
+
+
+def seeds_of(obj):
+    """Return the object's seeds as the core's Seeds."""
+    seeds = obj.reflcolor.seeds
+    return Seeds(
+        rows=np.array([seed.row for seed in seeds], np.int64),
+        cols=np.array([seed.col for seed in seeds], np.int64),
+        rgb=np.rint(np.array([seed.color[:] for seed in seeds]).reshape(-1, 3) * 255).astype(np.uint8),
+        photos=[seed.photo.name if seed.photo else None for seed in seeds],
+        photo_xy=[seed.photo_xy[:] if seed.photo else (np.nan, np.nan) for seed in seeds],
+    )
+
+
+def append_seed(obj, row, col, rgb, photo=None, photo_xy=(0.0, 0.0)):
+    """Add a seed to the object and select it; ``rgb`` is of 0..1."""
+    state = obj.reflcolor
+    seed = state.seeds.add()
+    seed.row, seed.col, seed.color = row, col, rgb
+    seed.photo, seed.photo_xy = photo, photo_xy
+    state.active_seed = len(state.seeds) - 1
+    return seed
+
+
+def append_seeds(obj, seeds):
+    """Add the core's Seeds to the object; photos are found by name among the .blend's images."""
+    for row, col, rgb, photo, xy in zip(
+        seeds.rows.tolist(), seeds.cols.tolist(), (seeds.rgb / 255).tolist(), seeds.photos, seeds.photo_xy, strict=True
+    ):
+        image = bpy.data.images.get(photo) if photo else None
+        append_seed(obj, row, col, rgb, image, tuple(np.nan_to_num(xy)))

@@ -1,0 +1,87 @@
+"""The files that only Blender writes: .blend, .glb, .ply and a rendered picture."""
+
+import json
+
+import bpy
+
+from ..reflcolor_addon.atomic import written_atomically
+from ..reflcolor_addon.errors import OutputError
+from ..reflcolor_addon.grid_mesh import grid_mesh
+from .colorize import show_colorization
+from .render import add_camera_and_lights, render
+from .scan_object import add_scan_object
+from .seed_list import append_seeds
+
+PROVENANCE = "reflcolor_provenance"
+
+
+def write_results(scan, colorization, paths, picture, progress, provenance):
+    """Write a colorized scan to every path, in the format of its suffix, and render a picture of it.
+
+    Parameters
+    ----------
+    scan : Scan
+    colorization : Colorization
+    paths : list of Path
+        Files to write: .blend, .glb or .ply.
+    picture : Path or None
+        PNG file to render.
+    progress : callable
+        Called as ``progress(fraction, text)``.
+    provenance : dict
+        The report; kept with the object.
+
+    Raises
+    ------
+    OutputError
+        If a file cannot be written.
+    """
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    context = bpy.context
+    obj = add_scan_object(context, scan, grid_mesh(scan))
+    append_seeds(obj, colorization.seeds)
+    show_colorization(context, obj, colorization)
+    obj[PROVENANCE] = json.dumps(provenance)
+    steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
+    if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
+        add_camera_and_lights(context, obj)
+    if picture is not None:
+        steps.append((picture, lambda path: render(context, path)))
+    for done, (path, write) in enumerate(steps):
+        progress(done / len(steps), f"Writing {path.name}")
+        _write(path, write)
+
+
+def _write(path, write):
+    with written_atomically(path) as temporary:
+        try:
+            write(temporary)
+        except RuntimeError as error:
+            raise OutputError(f"{path}: Blender could not write it: {str(error).strip().splitlines()[-1]}") from error
+
+
+def _write_blend(path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, compress=True, check_existing=False)
+
+
+def _write_glb(path):
+    bpy.ops.export_scene.gltf(
+        filepath=str(path), export_format="GLB", use_selection=True, export_extras=False, export_apply=False
+    )
+
+
+def _write_ply(path):
+    bpy.ops.wm.ply_export(
+        filepath=str(path),
+        export_selected_objects=True,
+        export_colors="SRGB",
+        export_uv=True,
+        export_attributes=False,
+        ascii_format=False,
+        check_existing=False,
+        forward_axis="Y",
+        up_axis="Z",
+    )
+
+
+_WRITERS = {".blend": _write_blend, ".glb": _write_glb, ".ply": _write_ply}
