@@ -1,0 +1,1 @@
+"""Scene 3: a brick house."""

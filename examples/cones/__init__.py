@@ -1,0 +1,1 @@
+"""Scene 1: two road cones."""

@@ -1,0 +1,1 @@
+"""Scene 2: a person in a room."""
