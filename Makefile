@@ -33,6 +33,7 @@ dist: setup kernel
 	@$(RUN) tools/build_extension.py --python all
 
 dist-all: setup
+	@rm -rf build/kernel-wheels
 	@$(RUN) kernel/build.py build/kernel-wheels
 	@$(RUN) tools/build_extension.py --python all --platform all
 

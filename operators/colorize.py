@@ -36,16 +36,16 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
         if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != result.rgb.shape[:2]:
             self.report({"WARNING"}, f"{self._object_name} is gone; its colors were dropped")
             return
-        show_colorization(context, obj, result)
+        show_colorization(obj, result)
         for warning in result.warnings:
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, f"Colorized {obj.name} from {len(result.seeds)} seeds")
 
 
-def show_colorization(context, obj, colorization):
+def show_colorization(obj, colorization):
     """Write a Colorization onto its object: color attribute, material and image."""
     add_colors(obj, COLORIZED, colorization.rgb[grid_indices(obj)])
-    show_colors(context, obj, COLORIZED)
+    show_colors(obj, COLORIZED)
     state = obj.reflcolor
     name = f"{obj.name} {COLORIZED}"
     state.colorized_image = write_image(state.colorized_image, name, colorization.rgb, is_data=False)

@@ -8,6 +8,7 @@ import numpy as np
 from mathutils import Vector
 
 from ..reflcolor_addon.framing import frame
+from .nodes import node_tree_of
 
 SIZE = (1280, 800)
 # Suns without shadows: a scan has holes and open backs, whose shadows would look like dirt. Each is the share of a
@@ -69,8 +70,7 @@ def _set_up_scene(scene):
     scene.view_settings.view_transform = "Standard"
     world = bpy.data.worlds.new("Plain")
     scene.world = world
-    world.use_nodes = True
-    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    background = next(node for node in node_tree_of(world).nodes if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = (0.8, 0.8, 0.8, 1.0)
     world.cycles_visibility.diffuse = False
 
@@ -80,8 +80,7 @@ def _seen_from_the_scanned_side(context):
     """For one render, make faces transparent from behind, so that one looks into a scanned room."""
     layer = context.view_layer
     material = bpy.data.materials.new("Scanned Side")
-    material.use_nodes = True
-    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes, links = node_tree_of(material).nodes, material.node_tree.links
     nodes.clear()
     color, diffuse, transparent = (
         nodes.new(f"ShaderNode{kind}") for kind in ("VertexColor", "BsdfDiffuse", "BsdfTransparent")

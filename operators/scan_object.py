@@ -2,12 +2,14 @@
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ..reflcolor_addon.errors import ScanError
 from ..reflcolor_addon.georeference import local_center, origin_shift
 from ..reflcolor_addon.normalization import normalize
 from ..reflcolor_addon.scan import Scan
 from .images import write_image
+from .nodes import node_tree_of
 
 GRAY = "Reflectance Gray"
 COLORIZED = "Colorized"
@@ -37,7 +39,7 @@ def add_scan_object(context, scan, mesh_data):
     mesh = bpy.data.meshes.new(scan.name)
     _fill_mesh(mesh, scan, mesh_data, (scan.points[scan.valid] - center) * per_metre)
     obj = bpy.data.objects.new(scan.name, mesh)
-    obj.matrix_world = pose.tolist()
+    obj.matrix_world = Matrix(pose)
     # Doubles: a shift of six digits does not fit into a float property.
     obj[SHIFT] = scene[SHIFT] = shift.tolist()
     mesh[CENTER] = center.tolist()
@@ -53,7 +55,7 @@ def add_scan_object(context, scan, mesh_data):
     if scan.color is not None:
         add_colors(obj, SCANNED, scan.color[scan.valid])
     mesh.materials.append(_material(scan.name))
-    show_colors(context, obj, GRAY)
+    show_colors(obj, GRAY)
 
     context.collection.objects.link(obj)
     for other in context.selected_objects:
@@ -115,7 +117,7 @@ def add_colors(obj, name, rgb):
     mesh.update()
 
 
-def show_colors(context, obj, name):
+def show_colors(obj, name):
     """Make a color attribute the one that is seen: in viewports, renders and exports."""
     mesh = obj.data
     mesh.color_attributes.active_color_name = name
@@ -124,11 +126,10 @@ def show_colors(context, obj, name):
         for node in material.node_tree.nodes if material.node_tree else ():
             if node.type == "VERTEX_COLOR":
                 node.layer_name = name
-    if context.window_manager is None:
-        return
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
+    # Solid views show the material's one color unless told otherwise.
+    for screen in bpy.data.screens:
+        for area in screen.areas:
+            if area.type == "VIEW_3D" and area.spaces.active.shading.color_type == "MATERIAL":
                 area.spaces.active.shading.color_type = "VERTEX"
 
 
@@ -166,8 +167,7 @@ def _read_attribute(obj, name, dtype):
 def _material(name):
     """A matte material that takes its color from a named Color Attribute node."""
     material = bpy.data.materials.new(name)
-    material.use_nodes = True
-    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes, links = node_tree_of(material).nodes, material.node_tree.links
     shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
     shader.inputs["Roughness"].default_value = 1.0
     shader.inputs["Specular IOR Level"].default_value = 0.0

@@ -3,7 +3,7 @@
 The scene is linked into a scene of its own for the time of the renders, so that no setting of the user's changes.
 """
 
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from math import radians
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,8 +13,9 @@ import numpy as np
 from mathutils import Matrix
 
 from ..reflcolor_addon.cryptomatte import name_as_float
+from ..reflcolor_addon.errors import SettingsError
 from ..reflcolor_addon.exr import read_exr_channels
-from ..reflcolor_addon.virtual_camera import linear_to_srgb8
+from ..reflcolor_addon.virtual_camera import Photo, linear_to_srgb8
 from ..reflcolor_addon.virtual_scanner import Hits
 
 NIR_ALBEDO = "nir_albedo"
@@ -24,46 +25,59 @@ _NOTHING = 1e9
 # Passes by their names in Blender 4 and 5.
 _DIFFUSE, _GLOSSY = ("DiffCol", "Diffuse Color"), ("GlossCol", "Glossy Color")
 _LEAST_STEP_DEG = 0.01
+_SENSOR_MM = 36.0
+_NAME = "reflcolor simulation"
 
 
 class SceneRenders:
-    """Renders of one scene without touching it; a context manager."""
+    """Renders of one scene without touching it; a context manager. Lengths in and out are metres."""
 
     def __init__(self, scene):
         self._source = scene
+        self._metres = scene.unit_settings.scale_length
 
     def __enter__(self):
-        source = self._source
-        self._scene = scene = bpy.data.scenes.new("reflcolor simulation")
+        self._undo = ExitStack()
+        try:
+            self._open()
+        except BaseException:
+            self._undo.close()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        self._undo.close()
+
+    def _open(self):
+        source, undo = self._source, self._undo
+        self._scene = scene = bpy.data.scenes.new(_NAME)
+        undo.callback(bpy.data.scenes.remove, scene)
         for child in source.collection.children:
             scene.collection.children.link(child)
         for item in source.collection.objects:
             scene.collection.objects.link(item)
+        # A new scene has no layer collections until it is evaluated.
+        scene.view_layers[0].update()
         _copy_exclusions(source.view_layers[0].layer_collection, scene.view_layers[0].layer_collection)
         scene.world = source.world
         scene.frame_set(source.frame_current)
-        self._camera_data = bpy.data.cameras.new("reflcolor simulation")
-        self._camera = bpy.data.objects.new("reflcolor simulation", self._camera_data)
+        self._camera_data = bpy.data.cameras.new(_NAME)
+        undo.callback(bpy.data.cameras.remove, self._camera_data)
+        self._camera = bpy.data.objects.new(_NAME, self._camera_data)
+        undo.callback(bpy.data.objects.remove, self._camera)
         self._camera_data.clip_start, self._camera_data.clip_end = 1e-4, 1e6
         scene.collection.objects.link(self._camera)
         scene.camera = self._camera
-        self._folder = TemporaryDirectory(dir=bpy.app.tempdir or None)
-        _choose_renderer(scene, Path(self._folder.name) / "passes.exr")
-        return self
+        folder = undo.enter_context(TemporaryDirectory(dir=bpy.app.tempdir or None))
+        _choose_renderer(scene, Path(folder) / "passes.exr")
 
-    def __exit__(self, *_):
-        self._folder.cleanup()
-        bpy.data.objects.remove(self._camera)
-        bpy.data.cameras.remove(self._camera_data)
-        bpy.data.scenes.remove(self._scene)
-
-    def caster(self, scanner_matrix):
-        """Return the ``cast`` function for `simulate_scan` of a scanner at this (4, 4) matrix (Z up, looking along +Y).
+    def caster(self, pose):
+        """Return the ``cast`` function for `simulate_scan` of a scanner with this (4, 4) pose (Z up, looking along +Y).
 
         Cycles shoots one ray through the center of every pixel of an equirectangular picture; it is off by less than
         0.001 of a step.
         """
-        scanner_matrix = Matrix(np.asarray(scanner_matrix).tolist())
+        scanner_matrix = self._matrix(pose)
 
         def cast(azimuths_deg, elevations_deg):
             with self._surface_settings():
@@ -71,32 +85,23 @@ class SceneRenders:
 
         return cast
 
-    def light(self, camera, *, samples, margin=0):
-        """Render what a `VirtualCamera` would see without distortion.
-
-        Parameters
-        ----------
-        camera : VirtualCamera
-        samples : int
-            Light paths per pixel.
-        margin : int
-            Pixels to add on every side.
-
-        Returns
-        -------
-        light : (H + 2 margin, W + 2 margin, 3) float32
-            Linear; 1 is white.
-        depth : (H + 2 margin, W + 2 margin) float32
-            Metres along the viewing axis; at least 1e9 where there is nothing.
-        """
+    def photo(self, camera, *, samples):
+        """Take a `Photo` with a `VirtualCamera`, with so many light paths per pixel."""
         data, cycles = self._camera_data, self._scene.cycles
-        width, height = camera.width + 2 * margin, camera.height + 2 * margin
-        data.type, data.sensor_fit, data.sensor_width = "PERSP", "HORIZONTAL", 36.0
-        data.lens = camera.focal_px * data.sensor_width / width
-        self._camera.matrix_world = Matrix(camera.pose.tolist()) @ Matrix.Diagonal((1, -1, -1, 1))
+        # Rendered without distortion, and larger, then bent.
+        margin = camera.margin_px()
+        size = camera.width + 2 * margin, camera.height + 2 * margin
+        data.type, data.sensor_fit, data.sensor_width = "PERSP", "HORIZONTAL", _SENSOR_MM
+        data.lens = camera.focal_px * _SENSOR_MM / size[0]
+        # Blender's cameras look along -Z with Y up.
+        self._camera.matrix_world = self._matrix(camera.pose) @ Matrix.Diagonal((1, -1, -1, 1))
         cycles.samples, cycles.filter_width, cycles.max_bounces = samples, 1.5, 4
-        channels = self._render(width, height)
-        return _stack(channels, ("Combined",), "RGB"), _find(channels, ("Depth",), "Z")
+        light = _stack(self._render(*size), ("Combined",), "RGB")
+        # Depth at the very middle of every pixel; among the paths of the light it would be that of any place in it.
+        cycles.samples, cycles.filter_width, cycles.max_bounces = 1, 0.01, 0
+        depth = self._in_metres(_find(self._render(*size), ("Depth",), "Z"))
+        image = camera.develop(camera.distort(light, margin))
+        return Photo(camera, image, camera.distort(depth, margin, blend=False))
 
     @contextmanager
     def _surface_settings(self):
@@ -130,9 +135,18 @@ class SceneRenders:
         pose = scanner_matrix @ turn @ Matrix.Rotation(radians(90), 4, "X")
         self._camera.matrix_world = pose
         channels = self._render(azimuths.size, rows.size)
-        hits = _hits(channels, np.array(pose)[:3, :3], azimuths, elevations[rows])
+        distance = self._in_metres(_find(channels, ("Depth",), "Z").astype(np.float64))
+        hits = _hits(channels, distance, np.array(pose)[:3, :3], azimuths, elevations[rows])
         source = np.clip(np.arange(elevations.size) - rows[0], 0, rows.size - 1)
         return Hits(**{key: getattr(hits, key)[source] for key in ("range", "cos_incidence", "albedo", "color")})
+
+    def _matrix(self, pose):
+        matrix = Matrix(np.asarray(pose, np.float64).tolist())
+        matrix.translation /= self._metres
+        return matrix
+
+    def _in_metres(self, depth):
+        return np.where(depth < _NOTHING, depth * self._metres, np.inf)
 
     def _render(self, width, height):
         render = self._scene.render
@@ -149,7 +163,10 @@ def _copy_exclusions(source, target):
 
 
 def _choose_renderer(scene, path):
-    scene.render.engine = "CYCLES"
+    try:
+        scene.render.engine = "CYCLES"
+    except TypeError:
+        raise SettingsError("Cycles is not there to cast rays; enable Cycles Render Engine among the add-ons") from None
     cycles, render, settings = scene.cycles, scene.render, scene.render.image_settings
     cycles.device, cycles.seed, cycles.use_denoising, cycles.use_adaptive_sampling = "CPU", 0, False, False
     cycles.pixel_filter_type = "BLACKMAN_HARRIS"
@@ -163,9 +180,7 @@ def _choose_renderer(scene, path):
     scene.view_layers[0].use_pass_z = True
 
 
-def _hits(channels, rotation, azimuths, elevations):
-    distance = _find(channels, ("Depth",), "Z").astype(np.float64)
-    hit = distance < _NOTHING
+def _hits(channels, distance, rotation, azimuths, elevations):
     elevation, azimuth = np.meshgrid(np.radians(elevations), np.radians(azimuths), indexing="ij")
     azimuth = azimuth - np.radians((azimuths[0] + azimuths[-1]) / 2)
     in_camera = [np.cos(elevation) * np.sin(azimuth), np.sin(elevation), -np.cos(elevation) * np.cos(azimuth)]
@@ -173,7 +188,7 @@ def _hits(channels, rotation, azimuths, elevations):
     normal = _stack(channels, ("Normal",), "XYZ")
     color = _surface_color(_stack(channels, _DIFFUSE, "RGB"), _stack(channels, _GLOSSY, "RGB"))
     return Hits(
-        range=np.where(hit, distance, np.inf),
+        range=distance,
         cos_incidence=np.einsum("ijk,ijk->ij", ray, normal),
         albedo=_nir_albedo(channels, color),
         color=linear_to_srgb8(color),

@@ -40,7 +40,7 @@ def write_results(scan, colorization, paths, picture, progress, provenance):
     context = bpy.context
     obj = add_scan_object(context, scan, grid_mesh(scan))
     append_seeds(obj, colorization.seeds)
-    show_colorization(context, obj, colorization)
+    show_colorization(obj, colorization)
     obj[PROVENANCE] = json.dumps(provenance)
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
     if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):

@@ -44,6 +44,8 @@ def main(argv, *, scene_writer=None, prog="python -m reflcolor_addon", blender=N
         session = Session(console=console, cancelled=interruption.requested, scene_writer=scene_writer, blender=blender)
         try:
             arguments.run(arguments, session)
+            for warning in session.warnings:
+                console.warn(warning)
             return DONE
         except UsageError as error:
             console.error(str(error))

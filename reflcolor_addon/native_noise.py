@@ -6,7 +6,7 @@ import sys
 import tempfile
 import threading
 
-_LOCK = threading.Lock()
+_LOCK = threading.RLock()
 
 
 @contextlib.contextmanager

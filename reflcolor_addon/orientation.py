@@ -38,16 +38,26 @@ def infer_flips(points, valid):
         which is mended by turning the rows, the commoner of the two ways in which files differ.
     """
     points, valid = _sampled(points, valid)
+    points = np.where(valid[..., None], points, 0.0)
     distance = np.sqrt(np.einsum("ijk,ijk->ij", points, points))
     valid = valid & (distance > 0)
     directions = points / np.where(valid, distance, 1.0)[..., None]
 
     upright = _upright_score(directions, valid)
     proper = _proper_score(directions, valid)
-    if upright is not None:
-        mirrored = proper is not None and (proper < 0) != (upright < 0)
-        return Flips(upright < 0, mirrored, proper is not None or 1 in valid.shape)
-    return Flips(proper is not None and proper < 0, False, False)
+    mirrored = proper is not None and proper < 0
+    if valid.shape[0] == 1:
+        return Flips(False, mirrored, proper is not None)
+    if upright is None:
+        return Flips(mirrored, False, False)
+    if proper is None:
+        return Flips(upright < 0, False, valid.shape[1] == 1)
+    return Flips(upright < 0, mirrored != (upright < 0), True)
+
+
+def turned(vertical, horizontal):
+    """The index that brings an (H, W, ...) array's rows and/or columns into the opposite order."""
+    return slice(None, None, -1 if vertical else None), slice(None, None, -1 if horizontal else None)
 
 
 def flipped(scan, *, vertical=False, horizontal=False):
@@ -65,7 +75,7 @@ def flipped(scan, *, vertical=False, horizontal=False):
     """
     if not (vertical or horizontal):
         return scan
-    turn = (slice(None, None, -1 if vertical else None), slice(None, None, -1 if horizontal else None))
+    turn = turned(vertical, horizontal)
     return replace(
         scan,
         points=scan.points[turn],

@@ -1,6 +1,6 @@
 """A photographer's camera that does not exist: where a point falls in its picture, and how the picture comes out."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -77,20 +77,24 @@ class VirtualCamera:
         beyond = np.maximum(-outside, outside - [self.width, self.height])
         return int(np.ceil(max(beyond.max(), 0))) + 2
 
-    def distort(self, image, margin):
-        """Resample a picture without distortion, drawn ``margin`` pixels larger on every side, bilinearly.
+    def distort(self, image, margin, *, blend=True):
+        """Resample a picture without distortion, drawn ``margin`` pixels larger on every side.
 
         Parameters
         ----------
-        image : (height + 2 margin, width + 2 margin, C) float
+        image : (height + 2 margin, width + 2 margin, ...) float
         margin : int
+        blend : bool
+            Blend the four pixels around bilinearly, as light wants it; else take the nearest one, as depth does.
 
         Returns
         -------
-        (height, width, C) float64
+        (height, width, ...) float
         """
-        xy = self.undistorted_pixels() + margin - 0.5
+        xy = self.undistorted_pixels() + margin - (0.5 if blend else 0.0)
         corner = np.floor(xy).astype(int)
+        if not blend:
+            return image[corner[..., 1], corner[..., 0]]
         right, down = np.moveaxis((xy - corner)[..., None], 2, 0)
         x = np.clip(corner[..., 0], 0, image.shape[1] - 2)
         y = np.clip(corner[..., 1], 0, image.shape[0] - 2)
@@ -140,6 +144,49 @@ class VirtualCamera:
         return plane * self._gain(plane)
 
 
+@dataclass(frozen=True, eq=False)
+class Photo:
+    """A photo that a `VirtualCamera` took, and how deep the scene is in it.
+
+    Parameters
+    ----------
+    camera : VirtualCamera
+    image : (H, W, 3) uint8
+        sRGB.
+    depth : (H, W) float
+        Metres along the viewing axis; infinite where there is nothing.
+    """
+
+    camera: VirtualCamera
+    image: np.ndarray
+    depth: np.ndarray
+
+    def shows(self, points_world, *, tolerance_m=0.02):
+        """Return where in the photo points are, (..., 2) pixels as `VirtualCamera.project` counts them.
+
+        NaN where a point is outside the picture, or more than the tolerance behind or before what is seen there.
+        """
+        xy, depth = self.camera.project(points_world)
+        with np.errstate(invalid="ignore"):
+            inside = ((xy >= 0) & (xy < [self.camera.width, self.camera.height])).all(axis=-1)
+        x, y = np.moveaxis(np.where(inside[..., None], xy, 0).astype(int), -1, 0)
+        seen = inside & (np.abs(self.depth[y, x] - depth) < tolerance_m)
+        return np.where(seen[..., None], xy, np.nan)
+
+
+def with_own_look(camera, seed):
+    """Return the camera with an exposure, white balance, lens distortion and noise of its own, as the seed has it."""
+    chance = np.random.RandomState(seed)
+    return replace(
+        camera,
+        distortion=(float(chance.uniform(-0.10, 0.04)), float(chance.uniform(0.0, 0.02))),
+        exposure_stops=float(chance.uniform(-0.35, 0.25)),
+        white_balance=(float(chance.uniform(0.94, 1.10)), 1.0, float(chance.uniform(0.86, 1.06))),
+        noise=0.012,
+        seed=seed,
+    )
+
+
 def look_at(position, target):
     """Return the (4, 4) float64 pose of a camera (x right, y down, z forward) that looks at a point, upright (Z up)."""
     position = np.asarray(position, np.float64)
@@ -157,3 +204,9 @@ def linear_to_srgb8(linear):
     linear = np.clip(np.asarray(linear, np.float64), 0, 1)
     encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     return np.round(encoded * 255).astype(np.uint8)
+
+
+def srgb8_to_linear(encoded):
+    """Decode sRGB uint8 (...) as linear light, float64 in 0..1."""
+    encoded = np.asarray(encoded, np.float64) / 255
+    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)

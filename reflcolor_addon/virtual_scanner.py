@@ -15,13 +15,16 @@ import numpy as np
 
 from .errors import Cancelled, SettingsError
 from .scan import Scan
+from .virtual_camera import linear_to_srgb8, srgb8_to_linear
 
 # Where in the beam its energy is sampled, in beam widths from the center (right, up), and the share of the energy.
 _BEAM = ((0.0, 0.0, 0.4), (-0.35, -0.35, 0.15), (0.35, -0.35, 0.15), (-0.35, 0.35, 0.15), (0.35, 0.35, 0.15))
 # Near a wall of the housing the 1/r of the signal law would grow without end.
 _LEAST_RANGE_M = 0.1
 _MOST_NOISE_GROWTH = 4.0
-_MAX_PIXELS = 2**28
+_MAX_PIXELS = 2**26
+# Linear light of every sRGB value.
+_LINEAR = srgb8_to_linear(np.arange(256, dtype=np.uint8))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,6 +191,45 @@ def directions(azimuths_deg, elevations_deg):
     return np.stack([horizontal * np.sin(azimuth), horizontal * np.cos(azimuth), np.sin(elevation)], axis=-1)
 
 
+def ray_grids(model):
+    """Return the grids of rays that a scan needs: one ((W,) azimuths, (H,) elevations) in degrees per ray of the beam.
+
+    Each is the whole grid, shifted by a part of the beam; an elevation beyond 90 degrees goes over the pole.
+    """
+    azimuths, elevations = model.azimuths_deg(), model.elevations_deg()
+    return [(azimuths + right * model.beam_deg, elevations + up * model.beam_deg) for right, up, _ in _beam(model)]
+
+
+def measure(hits, model, *, name="scan", pose=None):
+    """Return what the scanner reports where its rays hit.
+
+    Parameters
+    ----------
+    hits : sequence of Hits
+        One for each of ``ray_grids(model)``.
+    model : ScannerModel
+    name : str
+    pose : (4, 4) float, optional
+        Scanner to world; goes into the scan as it is.
+
+    Returns
+    -------
+    scan : Scan
+        Reflectance reads 0..1; no color.
+    truth : (H, W, 3) uint8
+        True sRGB of the surfaces that the return came from, averaged as light over the beam; 0 where there is none.
+    """
+    shares = np.array([share for _, _, share in _beam(model)])
+    ranges = np.array([np.asarray(ray.range, np.float64) for ray in hits])
+    signals = np.array([share * _signal(ray, model) for share, ray in zip(shares, hits, strict=True)])
+    together = _echo(ranges, signals, model)
+    distance, reflectance, valid = _readings(*_return(ranges, signals, together), model)
+    points = directions(model.azimuths_deg(), model.elevations_deg()) * distance[..., None]
+    pose = np.eye(4) if pose is None else np.asarray(pose, np.float64)
+    scan = Scan(name=name, points=points, reflectance=reflectance, valid=valid, pose=pose)
+    return scan, _mean_color([ray.color for ray in hits], together * shares[:, None, None], valid)
+
+
 def simulate_scan(cast, model, *, name="scan", pose=None, progress=None, cancelled=None):
     """Scan what ``cast`` describes.
 
@@ -195,12 +237,9 @@ def simulate_scan(cast, model, *, name="scan", pose=None, progress=None, cancell
     ----------
     cast : callable
         ``cast(azimuths_deg, elevations_deg) -> Hits`` for a grid of (W,) azimuths and (H,) elevations in the scanner's
-        frame. Called once for every ray across the beam: the whole grid, shifted by a part of
-        the beam; an elevation beyond 90 degrees goes over the pole.
-    model : ScannerModel
-    name : str
-    pose : (4, 4) float, optional
-        Scanner to world; goes into the scan as it is.
+        frame; called once for each of ``ray_grids(model)``.
+    model, name, pose
+        As in `measure`.
     progress : callable, optional
         ``progress(fraction, text)``.
     cancelled : callable, optional
@@ -209,41 +248,29 @@ def simulate_scan(cast, model, *, name="scan", pose=None, progress=None, cancell
     Returns
     -------
     scan : Scan
-        Reflectance reads 0..1; no color.
     truth : (H, W, 3) uint8
-        True sRGB of the surface that the middle of the beam meets; 0 where the scan has no return.
+        As in `measure`.
 
     Raises
     ------
     Cancelled
         If ``cancelled()`` returned True.
     """
-    beam = _BEAM if model.beam_deg > 0 else ((0.0, 0.0, 1.0),)
-    azimuths, elevations = model.azimuths_deg(), model.elevations_deg()
-    ranges, signals = [], []
-    truth = None
-    for index, (right, up, share) in enumerate(beam):
+    grids, hits = ray_grids(model), []
+    for index, grid in enumerate(grids):
         if cancelled is not None and cancelled():
             raise Cancelled
         if progress is not None:
-            progress(index / len(beam), f"Scanning {name}")
-        hits = cast(azimuths + right * model.beam_deg, elevations + up * model.beam_deg)
-        truth = hits.color if truth is None else truth
-        ranges.append(np.asarray(hits.range, np.float64))
-        signals.append(share * _signal(hits, model))
-    distance, signal = _returns(np.array(ranges), np.array(signals), model)
-    distance, reflectance, valid = _readings(distance, signal, model)
-    points = directions(azimuths, elevations) * distance[..., None]
+            progress(index / len(grids), f"Scanning {name}")
+        hits.append(cast(*grid))
+    result = measure(hits, model, name=name, pose=pose)
     if progress is not None:
         progress(1.0, f"Scanned {name}")
-    scan = Scan(
-        name=name,
-        points=points,
-        reflectance=reflectance,
-        valid=valid,
-        pose=np.eye(4) if pose is None else np.asarray(pose, np.float64),
-    )
-    return scan, np.where(valid[..., None], truth, 0).astype(np.uint8)
+    return result
+
+
+def _beam(model):
+    return _BEAM if model.beam_deg > 0 else ((0.0, 0.0, 1.0),)
 
 
 def _signal(hits, model):
@@ -255,17 +282,27 @@ def _signal(hits, model):
     return np.where(hit, np.asarray(hits.albedo, np.float64) * lambert * falloff, 0.0)
 
 
-def _returns(ranges, signals, model):
-    """(H, W) range and signal of what the rays across the beam, (B, H, W), give together."""
+def _echo(ranges, signals, model):
+    """(B, H, W) bool: which rays across the beam make the return: the strongest, and those of about its range."""
     strongest = np.argmax(signals, axis=0)[None]
-    middle = np.take_along_axis(ranges, strongest, axis=0)
     with np.errstate(invalid="ignore"):
-        together = (np.abs(ranges - middle) <= model.echo_length_m) & (signals > 0)
+        near = np.abs(ranges - np.take_along_axis(ranges, strongest, axis=0)) <= model.echo_length_m
+    return near & (signals > 0)
+
+
+def _return(ranges, signals, together):
+    """(H, W) range and signal of what the rays across the beam, (B, H, W), give together."""
     weights = np.where(together, signals, 0.0)
     signal = weights.sum(axis=0)
     weighted = (weights * np.where(together, ranges, 0.0)).sum(axis=0)
-    distance = np.divide(weighted, signal, out=np.zeros_like(signal), where=signal > 0)
-    return distance, signal
+    return np.divide(weighted, signal, out=np.zeros_like(signal), where=signal > 0), signal
+
+
+def _mean_color(colors, weights, valid):
+    """(H, W, 3) uint8: sRGB colors of B rays averaged in linear light."""
+    weights = weights / np.where(valid, weights.sum(axis=0), 1.0)
+    light = sum(weight[..., None] * _LINEAR[color] for weight, color in zip(weights, colors, strict=True))
+    return np.where(valid[..., None], linear_to_srgb8(light), 0).astype(np.uint8)
 
 
 def _readings(distance, signal, model):

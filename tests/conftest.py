@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import zipfile
 from pathlib import Path
 
@@ -15,7 +16,12 @@ from hypothesis import settings
 
 ROOT = Path(__file__).resolve().parent.parent
 IN_CI = os.environ.get("CI") == "true"
+RESOURCES = pytest.StashKey[Path]()
+OPENED = pytest.StashKey[tuple]()
 EXIT_STATUS = pytest.StashKey[int]()
+
+# More fixtures: the command line in this process.
+pytest_plugins = ["command_line"]
 
 settings.register_profile("reflcolor", deadline=None, derandomize=IN_CI)
 settings.load_profile("reflcolor")
@@ -36,25 +42,12 @@ def data_dir():
 @pytest.fixture(scope="session")
 def extension_zip():
     """The built zip: REFLCOLOR_ZIP, or what `make build` left for this platform and Python, of the present sources."""
-    if named := os.environ.get("REFLCOLOR_ZIP"):
-        return Path(named).resolve(strict=True)
-    path = zip_path(host_platform(), (running_python(),))
-    if not path.is_file():
-        pytest.fail(f"{path} is not there: run make build")
-    with zipfile.ZipFile(path) as archive:
-        for name in archive.namelist():
-            source = ROOT / name
-            if name.endswith(".py") and not (source.is_file() and source.read_bytes() == archive.read(name)):
-                pytest.fail(f"{path.name} holds another {name} than the source tree: run make build")
-    return path
+    return find_zip()
 
 
 @pytest.fixture(scope="session")
-def _bare_blender(tmp_path_factory):
-    resources = tmp_path_factory.mktemp("blender")
-    bpy = blender_session.open_blender(resources)
-    yield bpy, footprint(bpy)
-    shutil.rmtree(resources, ignore_errors=True)
+def _bare_blender(request):
+    return request.config.stash.get(OPENED, None) or open_blender(request.config)
 
 
 @pytest.fixture(scope="session")
@@ -97,6 +90,29 @@ def blender_command(extension_zip, tmp_path_factory):
     shutil.rmtree(resources, ignore_errors=True)
 
 
+def find_zip() -> Path:
+    """The zip to test; fails where it is missing or was built from other sources."""
+    if named := os.environ.get("REFLCOLOR_ZIP"):
+        return Path(named).resolve(strict=True)
+    path = zip_path(host_platform(), (running_python(),))
+    if not path.is_file():
+        pytest.fail(f"{path} is not there: run make build")
+    with zipfile.ZipFile(path) as archive:
+        for name in archive.namelist():
+            source = ROOT / name
+            if name.endswith(".py") and not (source.is_file() and source.read_bytes() == archive.read(name)):
+                pytest.fail(f"{path.name} holds another {name} than the source tree: run make build")
+    return path
+
+
+def open_blender(config):
+    """bpy with a new user folder, and what is registered in it before the extension comes."""
+    config.stash[RESOURCES] = Path(tempfile.mkdtemp(prefix="reflcolor-blender-"))
+    bpy = blender_session.open_blender(config.stash[RESOURCES])
+    config.stash[OPENED] = bpy, footprint(bpy)
+    return config.stash[OPENED]
+
+
 class _RootIsNoPackage:
     """Keeps pytest from importing the extension's __init__.py, and with it bpy, as the package that tests/ lies in."""
 
@@ -105,16 +121,31 @@ class _RootIsNoPackage:
         return pytest.Dir.from_parent(parent, path=path) if path == ROOT else None
 
 
+def pytest_addoption(parser):
+    parser.addoption(
+        "--blender",
+        action="store_true",
+        help="only the tests that need bpy, with every package that the zip bundles taken from the zip",
+    )
+
+
 def pytest_configure(config):
-    """A conftest's own hooks see only what lies below it; a plugin's see the root, too."""
+    """With --blender: install the zip before any test module imports what it bundles."""
+    # A conftest's own hooks see only what lies below it; a plugin's see the root, too.
     config.pluginmanager.register(_RootIsNoPackage())
+    if config.getoption("--blender"):
+        blender_session.enable(open_blender(config)[0], find_zip())
 
 
-def pytest_collection_modifyitems(items):
+def pytest_collection_modifyitems(config, items):
     """Mark the tests that need bpy in the process, so that they can run in one of their own."""
     for item in items:
         if "_bare_blender" in getattr(item, "fixturenames", ()):
             item.add_marker("blender")
+    if config.getoption("--blender"):
+        others = [item for item in items if not item.get_closest_marker("blender")]
+        items[:] = [item for item in items if item.get_closest_marker("blender")]
+        config.hook.pytest_deselected(items=others)
 
 
 def pytest_sessionfinish(session, exitstatus):
@@ -126,5 +157,7 @@ def pytest_sessionfinish(session, exitstatus):
 def pytest_unconfigure(config):
     """Leave at once where bpy is loaded, after pytest's closing line: bpy 4.5 can hang at the interpreter's end."""
     if "bpy" in sys.modules:
+        if resources := config.stash.get(RESOURCES, None):
+            shutil.rmtree(resources, ignore_errors=True)
         config.get_terminal_writer().flush()
         blender_session.end(config.stash.get(EXIT_STATUS, 1))

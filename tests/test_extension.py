@@ -6,6 +6,7 @@ import inspect
 import sys
 import tomllib
 import zipfile
+from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
 import pytest
@@ -13,6 +14,8 @@ from blender_cli import blender_ext
 from blender_session import EXTENSION
 from build_extension import PLATFORMS, host_platform, read_pins
 from footprint import footprint
+
+from reflcolor_addon.version import __version__
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -45,6 +48,7 @@ def test_manifest_says_what_the_extension_is(manifest):
     assert "blender" not in manifest["name"].lower()
     assert list(manifest["permissions"]) == ["files"]
     assert manifest["platforms"] == [host_platform()]
+    assert manifest["version"] == __version__
 
 
 def test_zip_holds_the_sources_and_nothing_else(contents):
@@ -101,7 +105,9 @@ def test_zip_bears_no_dates(extension_zip):
     assert [entry.filename for entry in entries] == sorted(entry.filename for entry in entries)
 
 
-def test_bundled_packages_come_from_the_zip(installed_blender):
+def test_bundled_packages_come_from_the_zip(installed_blender, request):
+    if not request.config.getoption("--blender"):
+        pytest.skip("needs --blender: other tests of this process have them from elsewhere already")
     installed = Path(installed_blender.utils.user_resource("EXTENSIONS"))
     for name in ("cv2", "lazy_loader", "pye57", "pyquaternion", "scipy", "skimage"):
         assert Path(importlib.import_module(name).__file__).is_relative_to(installed), name
@@ -117,40 +123,62 @@ def test_enabling_registers_the_operators(blender):
     assert {"REFLCOLOR_OT_import_scan", "REFLCOLOR_OT_colorize"} <= set(registered)
 
 
-def test_disabling_leaves_nothing_behind(blender, bare_footprint):
-    enabled = footprint(blender)
-    try:
-        for _ in range(2):
-            blender.ops.preferences.addon_disable(module=EXTENSION)
-            assert footprint(blender) == bare_footprint
-            assert not _running_timers(blender)
-            blender.ops.preferences.addon_enable(module=EXTENSION)
-            assert footprint(blender) == enabled
-    finally:
-        if EXTENSION not in blender.context.preferences.addons:
-            blender.ops.preferences.addon_enable(module=EXTENSION)
+@dataclass
+class Life:
+    """What was registered, in order, while the extension was disabled and enabled twice."""
+
+    enabled: list = field(default_factory=list)
+    disabled: list = field(default_factory=list)
+    timers: list = field(default_factory=list)
+    verbs_added: list = field(default_factory=list)
+    verbs_removed: list = field(default_factory=list)
 
 
-def test_disabling_takes_the_command_line_verb_off(blender, monkeypatch):
-    added, removed = [], []
-    register, unregister = blender.utils.register_cli_command, blender.utils.unregister_cli_command
+@pytest.fixture(scope="module")
+def life(installed_blender):
+    bpy, life = installed_blender, Life()
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    register, unregister = bpy.utils.register_cli_command, bpy.utils.unregister_cli_command
 
     def recording_register(name, function):
-        added.append(register(name, function))
-        return added[-1]
+        handle = register(name, function)
+        life.verbs_added.append(handle)
+        return handle
 
     def recording_unregister(handle):
-        removed.append(handle)
+        life.verbs_removed.append(handle)
         unregister(handle)
 
-    blender.ops.preferences.addon_disable(module=EXTENSION)
-    monkeypatch.setattr(blender.utils, "register_cli_command", recording_register)
-    monkeypatch.setattr(blender.utils, "unregister_cli_command", recording_unregister)
-    blender.ops.preferences.addon_enable(module=EXTENSION)
-    assert len(added) == 1
-    blender.ops.preferences.addon_disable(module=EXTENSION)
-    assert removed == added
-    blender.ops.preferences.addon_enable(module=EXTENSION)
+    life.enabled.append(footprint(bpy))
+    bpy.ops.preferences.addon_disable(module=EXTENSION)
+    life.disabled.append(footprint(bpy))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bpy.utils, "register_cli_command", recording_register)
+        patch.setattr(bpy.utils, "unregister_cli_command", recording_unregister)
+        bpy.ops.preferences.addon_enable(module=EXTENSION)
+        life.enabled.append(footprint(bpy))
+        bpy.ops.preferences.addon_disable(module=EXTENSION)
+    life.disabled.append(footprint(bpy))
+    life.timers = _running_timers(bpy)
+    bpy.ops.preferences.addon_enable(module=EXTENSION)
+    life.enabled.append(footprint(bpy))
+    return life
+
+
+def test_disabling_leaves_nothing_behind(life, bare_footprint):
+    for disabled in life.disabled:
+        assert disabled == bare_footprint
+    assert not life.timers
+
+
+def test_enabling_again_registers_the_same(life, bare_footprint):
+    assert life.enabled[0] != bare_footprint
+    assert life.enabled[1:] == life.enabled[:1] * 2
+
+
+def test_disabling_takes_the_command_line_verb_off(life):
+    assert len(life.verbs_added) == 1
+    assert life.verbs_removed == life.verbs_added
 
 
 def test_blender_reports_no_policy_violation(installed_blender):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reflcolor_addon.virtual_camera import VirtualCamera, linear_to_srgb8, look_at
+from reflcolor_addon.virtual_camera import VirtualCamera, linear_to_srgb8, look_at, srgb8_to_linear
 
 
 def test_the_target_falls_into_the_middle_of_the_picture():
@@ -56,6 +56,11 @@ def test_noise_is_the_same_for_the_same_seed():
     photos = [VirtualCamera(width=8, height=8, focal_px=8.0, noise=0.05, seed=s).develop(light) for s in (1, 1, 2)]
     assert np.array_equal(photos[0], photos[1])
     assert not np.array_equal(photos[0], photos[2])
+
+
+def test_decoding_undoes_encoding():
+    values = np.arange(256, dtype=np.uint8)
+    assert np.array_equal(linear_to_srgb8(srgb8_to_linear(values)), values)
 
 
 def test_srgb_encoding_has_its_known_values():

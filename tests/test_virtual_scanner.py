@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reflcolor_addon.errors import Cancelled, SettingsError
+from reflcolor_addon.virtual_camera import linear_to_srgb8
 from reflcolor_addon.virtual_scanner import Hits, ScannerModel, directions, simulate_scan
 
 
@@ -120,6 +121,19 @@ def test_truth_is_the_color_of_the_surface():
     assert (truth == (7, 8, 9)).all()
 
 
+def test_truth_of_a_mixed_pixel_is_the_light_of_its_surfaces_together():
+    def cast(azimuths_deg, elevations_deg):
+        hits = step_at_azimuth_zero(3.0, 3.1)(azimuths_deg, elevations_deg)
+        return replace(hits, color=np.where(hits.range[..., None] < 3.05, 255, 0).astype(np.uint8).repeat(3, axis=-1))
+
+    model = replace(SMALL, columns=21, azimuth_deg=(-21, 21), beam_deg=1.0)
+    _, truth = simulate_scan(cast, model)
+    # Two of the five rays, with 0.3 of the energy, go left of the edge.
+    assert (truth[:, 10] == linear_to_srgb8([0.3] * 3)).all()
+    assert (truth[:, :10] == 255).all()
+    assert (truth[:, 11:] == 0).all()
+
+
 def test_range_noise_has_the_given_spread():
     model = ScannerModel(rows=200, columns=200, range_noise_m=0.004, range_step_m=0, dropout_rate=0, beam_deg=0)
     scan, _ = simulate_scan(step_at_azimuth_zero(3.0, 3.0), model)
@@ -128,6 +142,7 @@ def test_range_noise_has_the_given_spread():
 
 def test_range_noise_grows_as_the_signal_weakens():
     model = ScannerModel(rows=200, columns=200, range_noise_m=0.001, range_step_m=0, beam_deg=0, dropout_rate=0)
+    model = replace(model, detection_limit=0)
     spread = [np.std(simulate_scan(wall_facing(a), model)[0].range[100:]) for a in (1.0, 0.25, 0.01)]
     assert spread[1] / spread[0] == pytest.approx(2, rel=0.05)
     assert spread[2] / spread[0] == pytest.approx(4, rel=0.05)

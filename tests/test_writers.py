@@ -125,8 +125,8 @@ def test_the_angles_of_a_grid_are_found_from_its_points(turn):
 
 def test_a_grid_that_is_not_regular_is_no_image_pair(tmp_path):
     scan = make_scan()
-    bent = Scan(name="bent", points=scan.points + [[[0, 0, 1.0]]], reflectance=scan.reflectance, valid=scan.valid)
-    with pytest.raises(OutputError, match="bent: .* write it as PTX or E57"):
+    bent = Scan(name="bent", points=scan.points + np.array([0, 0, 1.0]), reflectance=scan.reflectance, valid=scan.valid)
+    with pytest.raises(OutputError, match=r"bent: .* write it as PTX or E57"):
         write_image_pair(bent, tmp_path / "bent.scan.json", azimuth_deg=(-21, 21), elevation_deg=(-29, 19))
     assert not list(tmp_path.iterdir())
 

@@ -44,8 +44,8 @@ class Platform:
     without: tuple[str, ...] = ()
 
 
-# windows-arm64 is not among them: OpenCV has no wheel for it. Blender itself is not released for linux-arm64, but
-# distributions build it. Where pye57 is missing the extension does all but read E57.
+# Blender itself is not released for linux-arm64, but distributions build it. Where pye57 is missing the extension does
+# all but read E57.
 PLATFORMS = {
     "linux-x64": Platform(tuple(f"manylinux_2_{n}_x86_64" for n in range(28, 16, -1)), "manylinux_2_17_x86_64"),
     "linux-arm64": Platform(
@@ -56,11 +56,12 @@ PLATFORMS = {
     "windows-x64": Platform(("win_amd64",), "win_amd64"),
     "macos-arm64": Platform(tuple(f"macosx_{n}_0_arm64" for n in (13, 12, 11)), "macosx_11_0_arm64"),
     "macos-x64": Platform(
-        (*(f"macosx_{n}_0_x86_64" for n in (14, 13, 12, 11)), *(f"macosx_10_{n}_x86_64" for n in range(16, 8, -1))),
+        (*(f"macosx_{n}_0_x86_64" for n in (13, 12, 11)), *(f"macosx_10_{n}_x86_64" for n in range(16, 8, -1))),
         "macosx_11_0_x86_64",
         without=("pye57", "pyquaternion"),
     ),
 }
+UNAVAILABLE = {"windows-arm64": "OpenCV has no wheel for it"}
 
 
 class BuildError(Exception):
@@ -70,20 +71,18 @@ class BuildError(Exception):
 def main() -> None:
     """Build what the command line asks for and print where each zip is."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--platform", action="append", choices=[*PLATFORMS, "all"], help="default: this machine's")
-    parser.add_argument("--python", action="append", choices=[*PYTHONS, "all"], help="default: the running one")
-    parser.add_argument("--print-path", action="store_true", help="build nothing, print where the zip belongs")
+    parser.add_argument("--platform", action="append", metavar="NAME", help=f"all, or {', '.join(PLATFORMS)}")
+    parser.add_argument("--python", action="append", choices=[*PYTHONS, "all"])
     args = parser.parse_args()
     platforms = tuple(PLATFORMS) if "all" in (args.platform or ()) else tuple(args.platform or (host_platform(),))
     pythons = PYTHONS if "all" in (args.python or ()) else tuple(args.python or (running_python(),))
     try:
         for name in platforms:
-            if args.print_path:
-                print(zip_path(name, pythons))
-            else:
-                zip_file = build(name, pythons)
-                size = zip_file.stat().st_size / 1e6
-                print(f"{zip_file.relative_to(ROOT)}: {size:.0f} MB, sha256 {sha256(zip_file)}")
+            zip_file = build(name, pythons)
+            size = zip_file.stat().st_size / 1e6
+            print(f"{zip_file.relative_to(ROOT)}: {size:.0f} MB, sha256 {sha256(zip_file)}")
+            if PLATFORMS[name].without:
+                print(f"  without {' and '.join(PLATFORMS[name].without)} (no wheels): cannot read E57 there")
     except BuildError as error:
         sys.exit(f"build: {error}")
 
@@ -112,7 +111,8 @@ def zip_path(platform_name: str, pythons: tuple[str, ...]) -> Path:
 def build(platform_name: str, pythons: tuple[str, ...]) -> Path:
     """Stage the sources and the wheels, have Blender's builder pack and validate them, and give the zip's path."""
     if platform_name not in PLATFORMS:
-        raise BuildError(f"no wheels exist for {platform_name}; there are zips for {', '.join(PLATFORMS)}")
+        reason = UNAVAILABLE.get(platform_name, "Blender has no such platform")
+        raise BuildError(f"no zip for {platform_name}: {reason}; there are {', '.join(PLATFORMS)}")
     output = zip_path(platform_name, pythons)
     wheels = sorted(
         {wheel.name: wheel for version in pythons for wheel in pinned_wheels(platform_name, version)}.values()

@@ -32,7 +32,9 @@ def main() -> None:
 
     started = time.monotonic()
     line = [sys.executable, ROOT / "tools" / "blender_command.py", "--", *command]
-    done = subprocess.run([str(part) for part in line], check=False)
+    # Blender and its exporters talk on stdout; what is wrong is said on stderr.
+    with (OUTPUT / "blender.log").open("w") as log:
+        done = subprocess.run([str(part) for part in line], stdout=log, check=False)
     if done.returncode:
         sys.exit(done.returncode)
     compared = OUTPUT / "cones_before_after.png"

@@ -6,5 +6,5 @@ cd "$(dirname "$0")/.."
 
 status=0
 "$1" -m pytest -m "not blender" || status=$?
-"$1" -m pytest -m blender || status=$?
+"$1" -m pytest --blender || status=$?
 exit "$status"

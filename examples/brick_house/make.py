@@ -9,6 +9,7 @@ in addition, to see what one and three photos give.
 """
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -49,30 +50,25 @@ def main(folder):
     """Write the scene's files into ``folder``."""
     folder.mkdir(parents=True, exist_ok=True)
     views = {f"photo_{degrees}.jpg": (STATIONS["south"], degrees) for degrees in DEGREES_OFF}
-    views |= {"photo_north.jpg": (STATIONS["north"], 31), "photo_west.jpg": (STATIONS["west"], -18)}
+    views |= {"photo_north.jpg": (STATIONS["north"], 31), "photo_west.jpg": (STATIONS["west"], 20)}
     scans = []
     with shooting.renders.SceneRenders(house.build()) as scene_renders:
         for seed, (name, position) in enumerate(STATIONS.items()):
-            model = shooting.replace(MODEL, seed=MODEL.seed + seed)
+            model = replace(MODEL, seed=MODEL.seed + seed)
             pose = facing(position, TARGET)
             cast = scene_renders.caster(pose)
             scan, truth = shooting.scanner.simulate_scan(cast, model, name=name, pose=pose)
             shooting.write_scan(scan, model, folder / f"{name}.scan.json")
             shooting.image_files.write_png(folder / f"{name}.truth.png", truth)
             scans.append(scan)
-        photos = [
-            shooting.shoot(
-                scene_renders,
-                name,
-                shooting.camera_off_line(position, TARGET, degrees, focal_px=700.0, nearness=1.1),
-                samples=SAMPLES,
+        photos = {
+            name: scene_renders.photo(
+                shooting.camera_off_line(position, TARGET, degrees, focal_px=560.0, nearness=1.1), samples=SAMPLES
             )
             for name, (position, degrees) in views.items()
-        ]
+        }
     shooting.writers.write_e57(scans, folder / "house.e57")
-    for photo in photos:
-        shooting.write_photo(photo, folder)
-    shooting.write_cameras(photos, folder / "cameras.json")
+    shooting.write_photos(photos, folder)
 
 
 def facing(position, target):

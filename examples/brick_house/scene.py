@@ -17,7 +17,7 @@ def build():
     _openings()
     _around()
     sky("#9fc0ea", 0.85)
-    sun("sun", (0.45, 0.75, -0.85), 2.6, angle_deg=1.0, color="#fff2dc")
+    sun("sun", (0.45, 0.75, -0.85), 3.2, angle_deg=1.0, color="#fff2dc")
     return scene
 
 
@@ -41,7 +41,7 @@ def _walls():
     middle = (_EAVES + 0.3) / 2
     for side in (-1, 1):
         box("long wall", (0, side * (_HALF_Y - 0.1), middle), (2 * _HALF_X, 0.2, _EAVES - 0.3), along_x)
-        x = side * _HALF_X
+        x = side * (_HALF_X + 0.004)
         corners = [(x, -_HALF_Y, 0.3), (x, _HALF_Y, 0.3), (x, _HALF_Y, _EAVES), (x, 0, _RIDGE), (x, -_HALF_Y, _EAVES)]
         panel("gable", corners[::side], along_y)
 
@@ -117,7 +117,7 @@ def _around():
             ball("crown", (x + offset[0], y + offset[1], 2.6 * size + offset[2]), (radius, radius, radius), crown)
     hedge = paint("hedge", "#2f5a2c", 0.70, variation=0.35, grain_per_m=9.0)
     box("hedge", (-7.6, -2.0, 0.5), (0.7, 6.0, 1.0), hedge)
-    box("hedge", (2.5, 7.6, 0.5), (7.0, 0.7, 1.0), hedge)
+    box("hedge", (7.4, 1.5, 0.5), (0.7, 5.0, 1.0), hedge)
     flowers = (("#d8372f", 0.72), ("#e8c22c", 0.82), ("#8a4bb0", 0.62))
     paints = [paint(f"flower {color}", color, nir) for color, nir in flowers]
     for i in range(21):

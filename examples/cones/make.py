@@ -83,10 +83,10 @@ def main(folder):
     pose[2, 3] = SCANNER_HEIGHT_M
     with shooting.renders.SceneRenders(cones.build()) as scene_renders:
         scan, truth = shooting.scanner.simulate_scan(scene_renders.caster(pose), MODEL, name="cones", pose=pose)
-        photo = shooting.shoot(scene_renders, "photo.jpg", CAMERA, samples=SAMPLES)
+        photo = scene_renders.photo(CAMERA, samples=SAMPLES)
     shooting.write_scan(scan, MODEL, folder / "cones.scan.json")
-    shooting.write_photo(photo, folder)
-    shooting.write_seeds(shooting.pick_seeds(scan, MODEL, [photo], SEEDS), folder / "cones.seeds.json")
+    shooting.write_photo(photo, folder / "photo.jpg")
+    shooting.write_seeds(shooting.pick_seeds(scan, MODEL, {"photo.jpg": photo}, SEEDS), folder / "cones.seeds.json")
     shooting.image_files.write_png(folder / "truth.png", truth)
 
 

@@ -40,20 +40,15 @@ def main(folder):
     pose[:3, 3] = SCANNER
     with shooting.renders.SceneRenders(room.build()) as scene_renders:
         scan, truth = shooting.scanner.simulate_scan(scene_renders.caster(pose), MODEL, name="room", pose=pose)
-        photos = [
-            shooting.shoot(
-                scene_renders,
-                f"photo_{degrees}.jpg",
-                shooting.camera_off_line(SCANNER, TARGET, degrees, focal_px=760.0),
-                samples=SAMPLES,
+        photos = {
+            f"photo_{degrees}.jpg": scene_renders.photo(
+                shooting.camera_off_line(SCANNER, TARGET, degrees, focal_px=610.0), samples=SAMPLES
             )
             for degrees in DEGREES_OFF
-        ]
+        }
     shooting.write_scan(scan, MODEL, folder / "room.scan.json")
     shooting.image_files.write_png(folder / "truth.png", truth)
-    for photo in photos:
-        shooting.write_photo(photo, folder)
-    shooting.write_cameras(photos, folder / "cameras.json")
+    shooting.write_photos(photos, folder)
 
 
 if __name__ == "__main__":

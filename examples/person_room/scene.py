@@ -82,7 +82,7 @@ def _person(place):
         rod("forearm", hand, elbow, 0.030, skin, end_radius=0.043)
         ball("shoulder", shoulder, (0.066, 0.066, 0.06), shirt)
         ball("elbow", elbow, (0.045, 0.045, 0.045), skin)
-        ball("hand", hand + (0, -0.03, -0.04), (0.035, 0.04, 0.065), skin)
+        ball("hand", np.add(hand, (0, -0.03, -0.04)), (0.035, 0.04, 0.065), skin)
     torso = lathe(
         "torso",
         (x, y, 0),
@@ -202,7 +202,7 @@ def _clutter():
     for _ in range(26):
         angle, lean, size = random.rand() * 2 * np.pi, 0.08 + 0.30 * random.rand(), 0.45 + 0.45 * random.rand()
         root = np.array((-1.0, 3.95, 0.28))
-        tip = root + (lean * np.cos(angle), lean * np.sin(angle), size)
+        tip = np.add(root, (lean * np.cos(angle), lean * np.sin(angle), size))
         across = 0.035 * np.array((-np.sin(angle), np.cos(angle), 0))
         middle = root + 0.6 * (tip - root) + (0, 0, 0.06)
         panel("leaf", [root, middle - across, tip, middle + across], leaves)

@@ -101,12 +101,9 @@ def run(arguments, session):
 
     with _timed(times, "read"):
         index, scan = choose_scan(session.read_scans(arguments.scan), arguments.wanted, arguments.scan)
-    for warning in scan.warnings:
-        session.console.warn(warning)
     with _timed(times, "colorize"):
         colorization = colorize(scan, seeds, settings, progress=session.progress, cancelled=session.cancelled)
-    for warning in colorization.warnings:
-        session.console.warn(warning)
+    session.warnings += [*scan.warnings, *colorization.warnings]
     report = None
     if scene_paths or arguments.render or arguments.report:
         report = build_report(
@@ -141,7 +138,7 @@ def _load_seeds(arguments, session):
     for path in arguments.photo:
         read_image(path)
         if path.name not in {Path(name).name for name in seeds.photos if name}:
-            session.console.warn(f"{path}: no seed names this photo")
+            session.warnings.append(f"{path}: no seed names this photo")
     return seeds
 
 

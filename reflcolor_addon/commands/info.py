@@ -25,9 +25,7 @@ def run(arguments, session):
         session.console.print(json.dumps(document, indent=2, allow_nan=False))
     else:
         session.console.print("\n".join(_as_text(description) for description in descriptions))
-    for scan in scans:
-        for warning in scan.warnings:
-            session.console.warn(warning)
+    session.warnings += [warning for scan in scans for warning in scan.warnings]
 
 
 def describe(index, scan):

@@ -24,6 +24,8 @@ class Session:
         Blender's version; None without Blender.
     written : list of Path
         The results that are there, whole; for the message when a later one fails.
+    warnings : list of str
+        What is to be said when all went well; a failure is the only line of its run.
     """
 
     console: Console
@@ -31,6 +33,7 @@ class Session:
     scene_writer: Callable | None = None
     blender: str | None = None
     written: list[Path] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
 
     def progress(self, fraction, text):
         """Show progress; for work that can be told to end by nothing else, this is where it ends.

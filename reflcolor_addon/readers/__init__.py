@@ -39,15 +39,7 @@ def read_scans(path, *, progress=None, cancelled=None):
     """
     path = Path(path)
     reader = next((read for suffix, read in _READERS.items() if path.name.lower().endswith(suffix)), None)
-    try:
-        if path.is_dir():
-            raise ScanError(f"{path.name}: is a directory, expected a scan file ({', '.join(SCAN_SUFFIXES)})")
-        with path.open("rb") as file:
-            start = file.read(512)
-    except FileNotFoundError:
-        raise ScanError(f"{path}: no such file") from None
-    except (OSError, ValueError) as error:
-        raise ScanError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error})") from None
+    start = _start_of(path)
     if not start:
         raise ScanError(f"{path.name}: is empty")
     contents = _contents(start)
@@ -56,7 +48,27 @@ def read_scans(path, *, progress=None, cancelled=None):
         raise ScanError(f"{path.name}: not a scan file by its name, expected one of {', '.join(SCAN_SUFFIXES)}{hint}")
     if contents and not path.name.lower().endswith(contents):
         raise ScanError(f"{path.name}: its contents look like {contents}: rename it")
-    return reader(path, progress=progress, cancelled=cancelled)
+    try:
+        return reader(path, progress=progress, cancelled=cancelled)
+    except MemoryError:
+        raise ScanError(f"{path.name}: does not fit into memory") from None
+    except OSError as error:
+        raise ScanError(f"{path}: cannot be read ({error.strerror or error})") from None
+
+
+def _start_of(path):
+    try:
+        with path.open("rb") as file:
+            return file.read(512)
+    except FileNotFoundError:
+        raise ScanError(f"{path}: no such file") from None
+    except OSError as error:
+        if path.is_dir():
+            expected = f"expected a scan file ({', '.join(SCAN_SUFFIXES)})"
+            raise ScanError(f"{path.name or path}: is a directory, {expected}") from None
+        raise ScanError(f"{path}: cannot be read ({error.strerror or error})") from None
+    except ValueError as error:
+        raise ScanError(f"{str(path)!r}: cannot be read ({error})") from None
 
 
 def _contents(start):

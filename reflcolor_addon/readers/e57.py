@@ -1,12 +1,11 @@
 """E57, structured: every point knows its row and column."""
 
-import math
-
 import numpy as np
 
 from ..errors import Cancelled, ScanError
 from ..memory import require_memory
-from .e57_file import check_header, native_errors, value_at
+from .e57_file import check_header, native_errors, number_at, text_at
+from .e57_grid import IndexGrid, in_8_bits
 from .grid import BYTES_PER_PIXEL, UnusableScan, finish_scan, with_problems
 from .poses import quaternion_pose
 
@@ -15,8 +14,6 @@ _CARTESIAN = ("cartesianX", "cartesianY", "cartesianZ")
 _SPHERICAL = ("sphericalRange", "sphericalAzimuth", "sphericalElevation")
 _COLOR = ("colorRed", "colorGreen", "colorBlue")
 _INDEX = ("rowIndex", "columnIndex")
-_CELLS_PER_POINT = 1000
-"""A grid emptier than this is no scan: its row or column numbers are wrong."""
 
 
 def read_e57(path, *, progress=None, cancelled=None):
@@ -61,150 +58,105 @@ def read_e57(path, *, progress=None, cancelled=None):
 
 def _name(path, node, index, count):
     with native_errors(path):
-        stored = value_at(node, "name")
-    stored = " ".join(stored.split()) if isinstance(stored, str) else ""
+        stored = text_at(node, "name")
+    stored = "".join(letter for letter in " ".join(stored.split()) if letter.isprintable())
     return stored or (path.stem if count == 1 else f"{path.stem} {index + 1}")
 
 
 def _stored(path, file, node, name, tell):
     """Keyword arguments of `finish_scan`."""
-    from pye57 import libe57
-
     place = f"scan '{name}'"
     with native_errors(path):
-        if not node.isDefined("points"):
-            raise UnusableScan(f"{path.name}: {place} has no points")
-        points = node["points"]
-        count = points.childCount()
-        prototype = libe57.StructureNode(points.prototype())
-        limits = {field: _limits(node, prototype, field) for field in (*_COLOR, *_INDEX)}
-        present = {prototype.get(index).elementName() for index in range(prototype.childCount())}
-        quaternion = [value_at(node, "pose", "rotation", axis) for axis in "wxyz"]
-        translation = [value_at(node, "pose", "translation", axis) for axis in "xyz"]
-    if count <= 0:
-        raise UnusableScan(f"{path.name}: {place} has no points")
-    if not present.issuperset(_INDEX):
-        raise UnusableScan(
-            f"{path.name}: {place} is unstructured (its points have no rowIndex and columnIndex); "
-            "export it as PTX or as a structured (gridded) E57"
-        )
-    xyz = next((system for system in (_CARTESIAN, _SPHERICAL) if present.issuperset(system)), None)
-    if xyz is None:
-        raise UnusableScan(
-            f"{path.name}: {place} has no coordinates that are known, expected cartesianX, Y, Z or "
-            "sphericalRange, Azimuth, Elevation"
-        )
-    spherical = xyz is _SPHERICAL
-    state = "sphericalInvalidState" if spherical else "cartesianInvalidState"
-    color = _COLOR if present.issuperset(_COLOR) else ()
-    optional = {"intensity", "isIntensityInvalid", "isColorInvalid", state} & present
-    fields = (*_INDEX, *xyz, *color, *sorted(optional))
+        header = _Header(node, f"{path.name}: {place}")
     require_memory(
-        count * (8 * len(fields) + BYTES_PER_PIXEL), f"{path.name}: {place}: {count:,} points", error=ScanError
+        header.count * (8 * len(header.fields) + BYTES_PER_PIXEL),
+        f"{path.name}: {place}: {header.count:,} points",
+        error=ScanError,
     )
-    columns = _read_columns(path, file, points, fields, count, tell)
-    placed, warnings = quaternion_pose(
-        np.array(
-            [default if value is None else value for value, default in zip(quaternion, (1, 0, 0, 0), strict=True)],
-            np.float64,
-        ),
-        np.array([value or 0.0 for value in translation], np.float64),
-        place,
-    )
-    xyz = np.stack([columns.pop(axis) for axis in xyz], axis=-1)
-    valid = xyz.any(axis=-1)
-    if state in columns:
+    columns = _read_columns(path, file, header, tell)
+    placed, warnings = quaternion_pose(header.quaternion, header.translation, place)
+    # Whatever is stored, also what is no number: finish_scan sorts it out.
+    with np.errstate(all="ignore"):
+        xyz = np.stack([columns.pop(axis) for axis in header.axes], axis=-1)
+        if header.axes is _SPHERICAL:
+            valid = xyz[:, 0] > 0
+            xyz = _cartesian(xyz)
+        else:
+            valid = (xyz != 0).any(axis=-1)
         # 1 is a direction without a distance, 2 nothing at all: neither is a return.
-        valid &= columns.pop(state) == 0
-    if spherical:
-        valid &= xyz[:, 0] > 0
-        xyz = _cartesian(xyz)
-    if "isIntensityInvalid" in columns:
-        faulty = valid & (columns.pop("isIntensityInvalid") != 0)
-        if faulty.any():
-            warnings.append(f"{place}: {np.count_nonzero(faulty)} points without intensity were taken as no return")
+        valid &= columns.pop(header.state, 0) == 0
+        faulty = valid & (columns.pop("isIntensityInvalid", 0) != 0)
         valid &= ~faulty
-    rgb = None
-    if color:
-        rgb = np.stack([_in_8_bits(columns.pop(channel), *limits[channel]) for channel in color], axis=-1)
-        if "isColorInvalid" in columns:
-            rgb[columns.pop("isColorInvalid") != 0] = 0
-    grid = _Grid(path, place, columns.pop("rowIndex"), columns.pop("columnIndex"), limits)
-    cells = grid.cells(valid, warnings)
+        color = None
+        if header.color:
+            color = np.stack([in_8_bits(columns.pop(channel), *header.limits[channel]) for channel in _COLOR], axis=-1)
+            color[columns.pop("isColorInvalid", np.zeros(header.count)) != 0] = 0
+    if faulty.any():
+        warnings.append(f"{place}: {np.count_nonzero(faulty):,} points without intensity were taken as no return")
+    grid = IndexGrid(columns.pop("rowIndex"), columns.pop("columnIndex"), header.limits, header.where)
+    doubled = grid.place(valid)
+    if doubled:
+        warnings.append(f"{place}: {doubled:,} points share a pixel with an earlier one and were left out")
     return {
         "name": name,
-        "points": grid.spread(xyz, cells),
-        "reflectance": grid.spread(columns["intensity"], cells, np.float32) if "intensity" in columns else None,
-        "valid": grid.spread(valid, cells),
-        "color": None if rgb is None else grid.spread(rgb, cells),
+        "points": grid.spread(xyz),
+        "reflectance": grid.spread(columns["intensity"], np.float32) if "intensity" in columns else None,
+        "valid": grid.spread(valid),
+        "color": None if color is None else grid.spread(color),
         "pose": placed,
         "warnings": warnings,
     }
 
 
-class _Grid:
-    """Where in a grid of rows and columns the points of a file belong."""
+class _Header:
+    """What a scan says about itself; all but the points and their rows and columns is optional.
 
-    def __init__(self, path, place, rows, columns, limits):
-        self._where = f"{path.name}: {place}"
-        first_row, height = self._extent(rows, "rowIndex", limits)
-        first_column, width = self._extent(columns, "columnIndex", limits)
-        if height * width > _CELLS_PER_POINT * (len(rows) + 1000):
-            raise ScanError(
-                f"{self._where}: its row and column numbers span {height:,} x {width:,} pixels for "
-                f"{len(rows):,} points; export it again as a gridded E57 or as PTX"
+    Raises UnusableScan if it has no points, no grid or no coordinates.
+    """
+
+    def __init__(self, node, where):
+        from pye57 import libe57
+
+        self.where = where
+        self.points = node["points"] if node.isDefined("points") else None
+        self.count = 0 if self.points is None else self.points.childCount()
+        if self.count <= 0:
+            raise UnusableScan(f"{where} has no points")
+        prototype = libe57.StructureNode(self.points.prototype())
+        present = {prototype.get(index).elementName() for index in range(prototype.childCount())}
+        if not present.issuperset(_INDEX):
+            raise UnusableScan(
+                f"{where} is unstructured (its points have no rowIndex and columnIndex); "
+                "export it as PTX or as a structured (gridded) E57"
             )
-        require_memory(
-            height * width * BYTES_PER_PIXEL, f"{self._where}: {height} rows x {width} columns", error=ScanError
-        )
-        self.shape = (height, width)
-        self._flat = (rows - first_row).astype(np.int64) * width + (columns - first_column).astype(np.int64)
-
-    def _extent(self, index, field, limits):
-        """First number and count. The file's own bounds are believed where they hold all points and are not absurd."""
-        if not np.isfinite(index).all() or (index != np.floor(index)).any() or np.abs(index).max() > 2**40:
-            raise ScanError(f"{self._where}: {field} holds what is no whole number; export it as PTX")
-        first, last = int(index.min()), int(index.max())
-        low, high = limits[field]
-        if (
-            low is not None
-            and high is not None
-            and low <= first
-            and last <= high
-            and high - low < 2 * (last - first + 1)
-        ):
-            first, last = math.ceil(low), math.floor(high)
-        return first, last - first + 1
-
-    def cells(self, valid, warnings):
-        """Point and pixel of every pixel's point: of several the first of the file that is a return."""
-        points = np.flatnonzero(valid)
-        pixels, first = np.unique(self._flat[points], return_index=True)
-        if (doubled := points.size - pixels.size) > 0:
-            if doubled > 0.5 * points.size:
-                raise ScanError(
-                    f"{self._where}: rowIndex and columnIndex do not tell its points apart ({points.size:,} points, "
-                    f"{pixels.size:,} pixels); export it as PTX or as a structured (gridded) E57"
-                )
-            warnings.append(
-                f"{self._where.partition(': ')[2]}: {doubled:,} points share a pixel with an earlier one "
-                "and were left out"
+        self.axes = next((axes for axes in (_CARTESIAN, _SPHERICAL) if present.issuperset(axes)), None)
+        if self.axes is None:
+            raise UnusableScan(
+                f"{where} has no coordinates that are known, expected cartesianX, Y, Z or sphericalRange, Azimuth, "
+                "Elevation"
             )
-        return points[first], pixels
-
-    def spread(self, values, cells, dtype=None):
-        """(H, W, ...) grid of the values of the points; zeros elsewhere."""
-        points, pixels = cells
-        grid = np.zeros((self.shape[0] * self.shape[1], *values.shape[1:]), dtype or values.dtype)
-        with np.errstate(over="ignore"):
-            grid[pixels] = values[points]
-        return grid.reshape(*self.shape, *values.shape[1:])
+        self.state = "sphericalInvalidState" if self.axes is _SPHERICAL else "cartesianInvalidState"
+        self.color = present.issuperset(_COLOR)
+        optional = present & {"intensity", "isIntensityInvalid", "isColorInvalid", self.state}
+        self.fields = (*_INDEX, *self.axes, *(_COLOR if self.color else ()), *sorted(optional))
+        self.limits = {field: _limits(node, prototype, field) for field in (*_COLOR, *_INDEX)}
+        self.quaternion = _numbers_at(node, "rotation", {"w": 1.0, "x": 0.0, "y": 0.0, "z": 0.0})
+        self.translation = _numbers_at(node, "translation", {"x": 0.0, "y": 0.0, "z": 0.0})
 
 
-def _read_columns(path, file, points, fields, count, tell):
+def _numbers_at(node, part, defaults):
+    """float64 array of a part of the pose, with the default for every number that it does not state."""
+    stated = [number_at(node, "pose", part, axis) for axis in defaults]
+    return np.array(
+        [default if value is None else value for value, default in zip(stated, defaults.values(), strict=True)]
+    )
+
+
+def _read_columns(path, file, header, tell):
     """(N,) float64 for every field; float64 holds every integer that a file may have as row, column or color."""
     from pye57 import libe57
 
+    count, fields = header.count, header.fields
     tell(0.0)
     buffers = {field: np.empty(min(_CHUNK, count)) for field in fields}
     columns = {field: np.empty(count) for field in fields}
@@ -212,7 +164,7 @@ def _read_columns(path, file, points, fields, count, tell):
         native = libe57.VectorSourceDestBuffer()
         for field, buffer in buffers.items():
             native.append(libe57.SourceDestBuffer(file, field, buffer, buffer.size, True, True))
-        reader = points.reader(native)
+        reader = header.points.reader(native)
     try:
         at = 0
         while at < count:
@@ -234,29 +186,14 @@ def _limits(node, prototype, field):
     """(low, high) that a file states for a field, each None where it states none."""
     if field in _INDEX:
         kind = field.removesuffix("Index")
-        return value_at(node, "indexBounds", f"{kind}Minimum"), value_at(node, "indexBounds", f"{kind}Maximum")
-    stated = [value_at(node, "colorLimits", f"{field}{end}") for end in ("Minimum", "Maximum")]
+        return number_at(node, "indexBounds", f"{kind}Minimum"), number_at(node, "indexBounds", f"{kind}Maximum")
+    stated = [number_at(node, "colorLimits", f"{field}{end}") for end in ("Minimum", "Maximum")]
     if None in stated and prototype.isDefined(field):
         element = prototype[field]
         for low, high in (("scaledMinimum", "scaledMaximum"), ("minimum", "maximum")):
             if hasattr(element, low):
                 return getattr(element, low)(), getattr(element, high)()
     return tuple(stated)
-
-
-def _in_8_bits(values, low, high):
-    """Colors brought to 0..255 by the limits of their file.
-
-    Limits that lie within 0..255 and go beyond its half say that the file counts in 8 bits, whether they are the
-    ends of the scale or the least and greatest that occur.
-    """
-    usable = low is not None and high is not None and np.isfinite([low, high]).all() and 0 < high - low <= 2**32
-    if not usable:
-        low, high = 0, 255 if np.nanmax(values, initial=0) <= 255 else 65535
-    elif low >= 0 and 128 <= high <= 255:
-        low, high = 0, 255
-    scaled = (np.nan_to_num(values, nan=low) - low) * (255 / (high - low))
-    return np.round(np.clip(scaled, 0, 255)).astype(np.uint8)
 
 
 def _cartesian(spherical):

@@ -71,13 +71,22 @@ def native_errors(path):
         raise ScanError(f"{path.name}: {reason or f'cannot be read as E57 ({first})'}") from None
 
 
-def value_at(node, *names):
-    """The number or text at a path below a node; None where a part of the path is missing or is neither."""
+def number_at(node, *names):
+    """The number at a path below a node; None where a part of the path is missing or it is no number."""
+    value = _value_at(node, names)
+    return value if isinstance(value, int | float) else None
+
+
+def text_at(node, *names):
+    """The text at a path below a node; empty where a part of the path is missing or it is no text."""
+    value = _value_at(node, names)
+    return value if isinstance(value, str) else ""
+
+
+def _value_at(node, names):
     for name in names:
         if not hasattr(node, "isDefined") or not node.isDefined(name):
             return None
         node = node[name]
-    for getter in ("scaledValue", "value"):
-        if hasattr(node, getter):
-            return getattr(node, getter)()
-    return None
+    getter = next((getter for getter in ("scaledValue", "value") if hasattr(node, getter)), None)
+    return None if getter is None else getattr(node, getter)()

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import Cancelled, ScanError
-from ..orientation import flipped, infer_flips
+from ..orientation import infer_flips, turned
 from ..scan import Scan
 
 BYTES_PER_PIXEL = 120
@@ -63,29 +63,34 @@ def finish_scan(name, source, *, points, reflectance, valid, color, pose, warnin
     if not usable.any():
         raise UnusableScan(f"{source.name}: {place} has no pixel with a return; there is nothing to import")
 
-    points = np.where(usable[..., None], points, 0.0)
-    nearest = np.sqrt(np.einsum("ijk,ijk->ij", points, points)[usable].min())
+    nearest = _nearest(points, usable)
     if nearest > _FARTHEST_RETURN_M:
         warnings.append(
             f"{place}: every point is more than {nearest / 1000:,.0f} km from the scanner's origin: the file holds "
             "world coordinates, so ranges and orientation mean little; rows and columns stay as stored"
         )
-        turn = (False, False)
+        turn = turned(False, False)
     else:
-        *turn, certain = infer_flips(points, usable)
-        if not certain:
+        flips = infer_flips(points, usable)
+        turn = turned(flips.vertical, flips.horizontal)
+        if not flips.certain:
             warnings.append(f"{place}: its points do not show which way is up; flip it if it looks wrong")
-    scan = Scan(
+    return Scan(
         name=name,
-        points=points,
-        reflectance=np.where(usable, reflectance, np.float32(0)),
-        valid=usable,
-        color=color,
+        points=points[turn],
+        reflectance=np.where(usable, reflectance, np.float32(0))[turn],
+        valid=usable[turn],
+        color=None if color is None else color[turn],
         pose=pose,
         source=source,
         warnings=tuple(warnings),
     )
-    return flipped(scan, vertical=turn[0], horizontal=turn[1])
+
+
+def _nearest(points, usable):
+    """Least distance from the scanner, metres."""
+    chosen = points[usable]
+    return np.sqrt(np.einsum("ij,ij->i", chosen, chosen).min())
 
 
 def gray_is_no_color(color, valid):

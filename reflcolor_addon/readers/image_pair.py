@@ -10,12 +10,15 @@ from ..scan import Scan
 from .grid import BYTES_PER_PIXEL, gray_is_no_color
 from .scan_json import load_description
 
+_NOTHING_HIT_M = 1e6
+"""Renderers write 1e10, or the largest number there is, where a ray meets nothing."""
+
 
 def read_image_pair(path, *, progress=None, cancelled=None):
     """Read the scan that a `.scan.json` describes.
 
-    No return is where the range is 0, not finite, or transparent where the image has an alpha channel (there, and
-    only there, a value of 0 may be a range).
+    No return is where the range is 0, not finite, beyond all reason, or transparent where the image has an alpha
+    channel (there, and only there, a value of 0 may be a range).
 
     Parameters and errors are those of `read_scans`.
     """
@@ -33,7 +36,7 @@ def read_image_pair(path, *, progress=None, cancelled=None):
     require_memory(values.size * BYTES_PER_PIXEL, f"{path.name}: {shape[0]} x {shape[1]} pixels", error=ScanError)
     valid = np.isfinite(values) & (values != 0 if opaque is None else opaque)
     distance = np.where(valid, description.metres(values), 0.0)
-    valid &= distance > 0
+    valid &= (distance > 0) & (distance < _NOTHING_HIT_M)
 
     tell(0.4, description.reflectance)
     reflectance, _ = _measured(path, "reflectance", description.reflectance)

@@ -76,7 +76,7 @@ class _Body:
         self.points = np.empty((columns * rows, 3))
         self.intensity = np.empty(columns * rows, np.float32)
         self.color = None
-        self._width, self._no_color, self._colorless_lines = None, False, 0
+        self._no_color, self._colorless = False, 0
 
     def read(self):
         count, at = len(self.points), 0
@@ -98,53 +98,47 @@ class _Body:
         notes = []
         if self._no_color:
             notes.append("its values 5 to 7 are not whole numbers 0..255; taken as a scan without color")
-        elif self._colorless_lines:
-            notes.append(f"{self._colorless_lines} points have no color among others that have; they are black")
+        elif self.color is not None and self._colorless:
+            notes.append(f"{self._colorless:,} points have no color among others that have; they are black")
         return notes
 
     def _keep(self, values, at):
         here = slice(at, at + len(values))
         self.points[here] = values[:, :3]
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):
             self.intensity[here] = values[:, 3]
-        if self._width > 4 and not self._no_color:
-            color = values[:, 4:7]
-            if ((color < 0) | (color > 255) | (color != np.round(color))).any() or not np.isfinite(color).all():
-                self.color, self._no_color = None, True
-                return
-            if self.color is None:
-                self.color = np.zeros((len(self.points), 3), np.uint8)
-            self.color[here] = color
+        colored = values.shape[1] > 4
+        color = values[:, 4:7] if colored else np.full((len(values), 3), np.nan)
+        given = ~np.isnan(color).all(axis=-1)
+        self._colorless += np.count_nonzero((values[~given, :3] != 0).any(axis=-1))
+        if self._no_color or not given.any():
+            return
+        color = color[given]
+        if not ((color >= 0) & (color <= 255) & (color == np.round(color))).all():
+            self.color, self._no_color = None, True
+            return
+        if self.color is None:
+            self.color = np.zeros((len(self.points), 3), np.uint8)
+        self.color[here][given] = color
 
     def _parsed(self, chunk, first):
-        """(n, 4, 7 or 10) float64 of the lines that are not blank."""
+        """(n, 4, 7 or 10) float64 of the lines that are not blank; NaN for colors that a line does not have."""
         try:
             values = np.loadtxt(chunk, np.float64, comments=None, ndmin=2)
         except ValueError:
             return self._parsed_one_by_one(chunk, first)
-        if self._width is None and values.shape[1] in _WIDTHS:
-            self._width = values.shape[1]
-        if values.shape[1] != self._width:
-            return self._parsed_one_by_one(chunk, first)
-        return values
+        return values if values.shape[1] in _WIDTHS else self._parsed_one_by_one(chunk, first)
 
     def _parsed_one_by_one(self, chunk, first):
         """Slower: for lines that differ in length, and to find the one that is wrong."""
         parsed = []
         for number, line in enumerate(chunk, first):
             words = line.split()
-            if not words:
-                continue
-            if len(words) not in _WIDTHS:
+            if words and len(words) not in _WIDTHS:
                 raise self._lines.error(f"expected 4 or 7 values, found {_found(words)}", number=number)
-            if self._width is None:
-                self._width = len(words)
-            if len(words) != self._width:
-                if len(words) != 4:
-                    message = f"expected {self._width} values as in the lines before, found {_found(words)}"
-                    raise self._lines.error(message, number=number)
-                self._colorless_lines += 1
-            parsed.append([_number(self._lines, word, number) for word in words] + [0.0] * (self._width - len(words)))
+            if words:
+                values = [_number(self._lines, word, number) for word in words]
+                parsed.append(values + [np.nan] * (max(_WIDTHS) - len(values)))
         return np.array(parsed, np.float64)
 
 

@@ -49,9 +49,9 @@ class TextLines:
         return lines
 
     def bytes_left(self):
-        """How many bytes have not been handed out yet, exactly."""
-        unread = self.size - self._file.tell() + len(self._rest)
-        return unread + sum(len(line) + 1 for line in self._lines[self._at :])
+        """How many bytes of text have not been handed out yet; at most, for line ends may take two."""
+        waiting = self._lines[self._at :]
+        return self.size - self._file.tell() + len(self._rest) + sum(map(len, waiting)) + len(waiting)
 
     def error(self, message, *, number=None):
         """A ScanError that names the file and a line, the last one handed out unless another is given."""

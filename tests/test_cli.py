@@ -1,0 +1,246 @@
+"""The command line: what it says and what it writes."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command_line import COLORIZE, SHAPE, assert_refused, run_process, save_seeds
+from small_scans import random_scan
+
+from reflcolor_addon import OutputError, Seeds, Settings, colorize, read_scans
+from reflcolor_addon.image_files import read_image, write_png
+from reflcolor_addon.version import __version__
+from reflcolor_addon.writers import write_image_pair, write_ptx
+
+
+def test_colorize_writes_the_colorized_reflectance_image(run_cli, cli_folder):
+    status, out, err = run_cli(*COLORIZE, "-o", "out.png")
+    assert (status, out, err) == (0, "wrote out.png\n", "")
+    (scan,) = read_scans(cli_folder / "garage.ptx")
+    expected = colorize(scan, Seeds.load(cli_folder / "seeds.json"))
+    assert (read_image(cli_folder / "out.png") == expected.rgb).all()
+
+
+def test_colorize_passes_every_setting_on(run_cli, cli_folder):
+    options = ("--alpha", "2.5", "--beta", "0", "--color-space", "cielab", "--neighbors", "4")
+    assert run_cli(*COLORIZE, *options, "-o", "out.png", "--report", "report.json")[0] == 0
+    settings = Settings(alpha=2.5, beta=0.0, color_space="cielab", neighbors=4)
+    (scan,) = read_scans(cli_folder / "garage.ptx")
+    expected = colorize(scan, Seeds.load(cli_folder / "seeds.json"), settings)
+    assert (read_image(cli_folder / "out.png") == expected.rgb).all()
+    assert json.loads((cli_folder / "report.json").read_text(encoding="utf-8"))["settings"] == settings.as_dict()
+
+
+def test_colorize_writes_the_same_bytes_each_time_and_only_the_times_of_the_report_vary(run_cli, cli_folder):
+    contents = []
+    for _ in range(2):
+        assert run_cli(*COLORIZE, "-o", "a.png", "-o", "b.png", "--report", "report.json")[0] == 0
+        report = json.loads((cli_folder / "report.json").read_text(encoding="utf-8"))
+        assert set(report.pop("times_s")) == {"seeds", "read", "colorize", "write"}
+        contents.append(((cli_folder / "a.png").read_bytes(), (cli_folder / "b.png").read_bytes(), json.dumps(report)))
+    assert contents[0] == contents[1]
+    assert contents[0][0] == contents[0][1]
+
+
+def test_the_report_names_every_input_and_output(run_cli, cli_folder):
+    (cli_folder / "photos").mkdir()
+    for name in ("photos/view.png", "beside.png", "idle.png"):
+        write_png(cli_folder / name, np.full((4, 4, 3), 90, np.uint8))
+    save_seeds(
+        cli_folder,
+        {"row": 1, "col": 2, "photo": "view.png", "x": 1, "y": 1},
+        {"row": 3, "col": 2, "photo": "beside.png", "x": 1, "y": 1},
+    )
+    status, _, err = run_cli(*COLORIZE, "--photo", "photos/view.png", "idle.png", "-o", "out.png", "--report", "r.json")
+    assert status == 0
+    assert err == "warning: idle.png: no seed names this photo\n"
+    report = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))
+    assert [(entry["role"], entry["path"]) for entry in report["inputs"]] == [
+        ("scan", "garage.ptx"),
+        ("seeds", "seeds.json"),
+        ("photo", str(Path("photos/view.png"))),
+        ("photo", "idle.png"),
+        ("photo", "beside.png"),
+    ]
+    assert report["outputs"] == [{"option": "-o", "path": "out.png"}, {"option": "--report", "path": "r.json"}]
+
+
+def test_the_images_that_a_scan_json_describes_are_inputs_too(run_cli, cli_folder):
+    write_image_pair(random_scan(shape=SHAPE), cli_folder / "pair.scan.json")
+    before = (cli_folder / "pair.reflectance.png").read_bytes()
+    arguments = ("colorize", "pair.scan.json", "--seeds", "seeds.json")
+    assert run_cli(*arguments, "-o", "out.png", "--report", "r.json")[0] == 0
+    inputs = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))["inputs"]
+    assert [entry["path"] for entry in inputs if entry["role"] == "scan"] == [
+        "pair.scan.json",
+        "pair.range.png",
+        "pair.reflectance.png",
+    ]
+    assert_refused(run_cli(*arguments, "-o", "pair.reflectance.png"), 2, "is an input")
+    assert (cli_folder / "pair.reflectance.png").read_bytes() == before
+
+
+def test_a_seed_without_return_is_moved_which_is_warned_of_and_reported(run_cli, cli_folder):
+    valid = np.ones(SHAPE, bool)
+    valid[1, 2] = False
+    write_ptx(random_scan(shape=SHAPE, valid=valid), cli_folder / "garage.ptx")
+    status, _, err = run_cli(*COLORIZE, "-o", "out.png", "--report", "r.json")
+    assert status == 0
+    assert err == "warning: seed 1: no return at row 1, column 2; moved to row 0, column 2\n"
+    report = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))
+    assert report["seeds"][0]["moved_from"] == {"row": 1, "col": 2}
+    assert len(report["warnings"]) == 1
+
+
+def test_info_says_what_is_in_every_scan(run_cli, cli_folder):
+    valid = np.ones(SHAPE, bool)
+    valid[0, :6] = False
+    scans = [random_scan(1, shape=SHAPE), random_scan(2, (8, 24), azimuth_deg=360.0)]
+    write_ptx([scans[0], scans[1]], cli_folder / "garage.ptx")
+    status, out, err = run_cli("info", "garage.ptx")
+    assert (status, err) == (0, "")
+    head, *lines = out.splitlines()
+    assert head == "1  garage 1"
+    assert "   grid         6 rows x 10 columns" in lines
+    assert "   returns      60 (100.0% of the pixels)" in lines
+    assert "   full turn    no" in lines
+    assert "2  garage 2" in lines
+    assert "   full turn    yes" in lines
+    assert "   color        no" in lines
+
+
+def test_info_gives_the_same_as_json(run_cli, cli_folder):
+    valid = np.ones(SHAPE, bool)
+    valid[2:4, 1:] = False
+    scan = random_scan(1, SHAPE, valid=valid)
+    pose = np.eye(4)
+    pose[:3, 3] = 431250.5, 5411900.25, 310.0
+    object.__setattr__(scan, "pose", pose)
+    write_ptx(scan, cli_folder / "garage.ptx")
+    status, out, _ = run_cli("info", "garage.ptx", "--json")
+    assert status == 0
+    document = json.loads(out)
+    assert (document["format"], document["version"], document["file"]) == ("reflcolor-info", 1, "garage.ptx")
+    (found,) = document["scans"]
+    assert (found["index"], found["name"], found["rows"], found["columns"]) == (1, "garage", 6, 10)
+    assert (found["returns"], found["returns_share"]) == (42, 0.7)
+    assert found["range_m"] == pytest.approx([scan.range[valid].min(), scan.range[valid].max()], abs=1e-5)
+    assert found["reflectance"] == pytest.approx(
+        [scan.reflectance[valid].min(), scan.reflectance[valid].max()], abs=1e-6
+    )
+    assert found["step_deg"] == pytest.approx({"vertical": 40 / 6, "horizontal": 6.0}, abs=1e-3)
+    assert (found["full_turn"], found["color"], found["warnings"]) == (False, False, [])
+    assert found["position_m"] == [431250.5, 5411900.25, 310.0]
+    assert np.array(found["pose"])[:3, 3].tolist() == found["position_m"]
+
+
+def test_what_the_reader_noticed_is_warned_of(run_cli, cli_folder):
+    text = (cli_folder / "garage.ptx").read_text(encoding="ascii").splitlines()
+    text[6:10] = ["nan 0 0 0"] * 4
+    (cli_folder / "garage.ptx").write_text("\n".join(text) + "\n", encoding="ascii")
+    (scan,) = read_scans(cli_folder / "garage.ptx")
+    assert scan.warnings
+    _, _, err = run_cli("info", "garage.ptx")
+    assert err.splitlines() == [f"warning: {warning}" for warning in scan.warnings]
+    _, out, _ = run_cli("info", "garage.ptx", "--json")
+    assert json.loads(out)["scans"][0]["warnings"] == list(scan.warnings)
+
+
+@pytest.mark.parametrize(("wanted", "index"), [("1", 1), ("2", 2), ("garage 2", 2)])
+def test_a_scan_is_chosen_by_its_index_or_its_name(run_cli, cli_folder, wanted, index):
+    write_ptx([random_scan(seed, SHAPE) for seed in (1, 2)], cli_folder / "garage.ptx")
+    assert run_cli(*COLORIZE, "--scan", wanted, "-o", "out.png", "--report", "r.json")[0] == 0
+    assert json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))["scan"]["index"] == index
+    expected = colorize(read_scans(cli_folder / "garage.ptx")[index - 1], Seeds.load(cli_folder / "seeds.json"))
+    assert (read_image(cli_folder / "out.png") == expected.rgb).all()
+
+
+@pytest.mark.parametrize("arguments", [(), ("--scan", "3"), ("--scan", "0"), ("--scan", "shed")])
+def test_several_scans_and_none_chosen_is_wrong_usage_that_lists_them(run_cli, cli_folder, arguments):
+    write_ptx([random_scan(seed, SHAPE) for seed in (1, 2)], cli_folder / "garage.ptx")
+    outcome = run_cli(*COLORIZE, *arguments, "-o", "out.png")
+    assert_refused(outcome, 2, "garage.ptx", "--scan NAME or --scan INDEX: 1 (garage 1), 2 (garage 2)")
+    assert not (cli_folder / "out.png").exists()
+
+
+def test_version_and_help_end_well(run_cli):
+    assert run_cli("--version") == (0, f"reflcolor {__version__}\n", "")
+    for arguments in (("--help",), ("info", "-h"), ("colorize", "-h")):
+        status, out, err = run_cli(*arguments, prog="reflcolor")
+        assert (status, err) == (0, "")
+        assert out.startswith("usage: reflcolor")
+
+
+def test_the_module_runs_as_a_program(cli_folder):
+    done = run_process(*COLORIZE, "-o", "out.png")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "wrote out.png\n", "")
+
+
+def test_real_scans_are_described(run_cli, data_dir):
+    for path, rows, columns in (
+        (data_dir / "doria_ptx/1.ptx", 91, 199),
+        (data_dir / "pumpA/pumpAVisualReferenceImage.e57", 1074, 345),
+    ):
+        status, out, _ = run_cli("info", path, "--json")
+        assert status == 0
+        (scan,) = json.loads(out)["scans"]
+        assert (scan["rows"], scan["columns"], scan["color"]) == (rows, columns, True)
+
+
+# With Blender
+
+
+def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder):
+    calls = []
+
+    def scene_writer(scan, colorization, paths, render, progress, provenance):
+        progress(0.5, "Writing")
+        calls.append((scan.name, colorization.rgb.shape, paths, render, provenance))
+        for path in (*paths, render):
+            path.write_bytes(b"scene")
+
+    status, out, err = run_cli(
+        *COLORIZE, "-o", "a.blend", "-o", "a.png", "-o", "a.GLB", "--render", "view.png", "--report", "r.json",
+        scene_writer=scene_writer, blender="5.2.2 LTS",
+    )  # fmt: skip
+    assert (status, err) == (0, "")
+    assert out.split() == [
+        "wrote",
+        "a.blend",
+        "wrote",
+        "a.png",
+        "wrote",
+        "a.GLB",
+        "wrote",
+        "view.png",
+        "wrote",
+        "r.json",
+    ]
+    ((name, shape, paths, render, provenance),) = calls
+    assert (name, shape) == ("garage", (*SHAPE, 3))
+    assert (paths, render) == ([Path("a.blend"), Path("a.GLB")], Path("view.png"))
+    report = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))
+    assert report.pop("times_s")["write"] >= 0
+    assert report == json.loads(json.dumps(provenance))
+    assert provenance["versions"]["blender"] == "5.2.2 LTS"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("-o", "out.blend"), ("-o", "out.png", "-o", "out.glb"), ("-o", "out.ply"), ("-o", "a.png", "--render", "b.png")],
+)
+def test_without_blender_what_needs_it_is_wrong_usage(run_cli, cli_folder, arguments):
+    before = sorted(cli_folder.iterdir())
+    assert_refused(run_cli(*COLORIZE, *arguments), 2, "needs Blender", "blender -b --command reflcolor")
+    assert sorted(cli_folder.iterdir()) == before
+
+
+def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cli_folder):
+    def scene_writer(_scan, _colorization, paths, _render, _progress, _provenance):
+        paths[0].write_bytes(b"scene")
+        raise OutputError("b.glb: cannot be written (No space left on device)")
+
+    outcome = run_cli(*COLORIZE, "-o", "a.blend", "-o", "b.glb", "-o", "c.png", scene_writer=scene_writer)
+    assert_refused(outcome, 1, "b.glb: cannot be written", "; already written: a.blend\n")
+    assert not (cli_folder / "c.png").exists()
