@@ -52,6 +52,11 @@ _NEIGHBOR_ITEMS = (
     ("4", "4", "Paths step to the pixels above, below, left and right"),
     ("8", "8", "Paths step diagonally too"),
 )
+_BLEND_ITEMS = (
+    ("auto", "Automatic", "All seeds where that takes about two seconds, else as many as it takes to be close to that"),
+    ("all", "All Seeds", "Every seed colors every pixel, as the paper has it"),
+    ("nearest", "Nearest", "Only a pixel's nearest seeds color it; quick with very many seeds"),
+)
 
 
 class ColorizeSettings:
@@ -86,6 +91,21 @@ class ColorizeSettings:
         default=str(_PAPER.neighbors),
     )
 
+    blend: EnumProperty(
+        name="Blend",
+        description="Which seeds color a pixel",
+        items=_BLEND_ITEMS,
+        default="auto",
+    )
+    nearest: IntProperty(
+        name="Nearest Seeds",
+        description="How many of its nearest seeds color a pixel, if Blend is Nearest",
+        default=8,
+        min=1,
+        max=settings.MAX_NEAREST,
+        soft_max=64,
+    )
+
 
 SETTING_NAMES = tuple(ColorizeSettings.__annotations__)
 
@@ -104,7 +124,8 @@ def core_settings(holder, fallback=None):
     for name in SETTING_NAMES:
         source = holder if fallback is None or holder.properties.is_property_set(name) else fallback
         chosen[name] = getattr(source, name)
-    return settings.Settings(**chosen | {"neighbors": int(chosen["neighbors"])})
+    nearest = {"auto": "auto", "all": None, "nearest": chosen["nearest"]}[chosen.pop("blend")]
+    return settings.Settings(**chosen | {"neighbors": int(chosen["neighbors"]), "nearest": nearest})
 
 
 classes = (ReflcolorSeed, ReflcolorScan, ReflcolorSettings)

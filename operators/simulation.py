@@ -11,11 +11,14 @@ import numpy as np
 from ..reflcolor_addon.atomic import written_atomically
 from ..reflcolor_addon.errors import OutputError, SettingsError
 from ..reflcolor_addon.image_files import write_png
+from ..reflcolor_addon.outputs import check_outputs
 from ..reflcolor_addon.virtual_camera import VirtualCamera, with_own_look
 from ..reflcolor_addon.virtual_scanner import ScannerModel, measure, ray_grids
 from ..reflcolor_addon.writers import write_e57, write_image_pair, write_ptx
 from .scene_renders import SceneRenders
 
+_PAIR_SUFFIX = ".scan.json"
+# The axis that looks ahead, and its sign.
 _FORWARD = {"CAMERA": (2, -1.0), "ACTIVE": (1, 1.0), "CURSOR": (1, 1.0)}
 
 
@@ -60,14 +63,17 @@ def simulation_steps(scene, simulation):
 
     Raises
     ------
-    OutputError
-        If the suffix is none of the three, or a file cannot be written.
+    OutputError, UsageError
+        If the suffix is none of the three, a file cannot be written, or two would have the same name.
     SettingsError
         If a camera to take a photo from is not a perspective camera of the scene.
     """
     path, model = simulation.path, simulation.model
     write = _writer(path)
-    stem = path.name.removesuffix(".scan.json") if path.name.endswith(".scan.json") else path.stem
+    stem = path.name[: -len(_PAIR_SUFFIX)] if path.name.lower().endswith(_PAIR_SUFFIX) else path.stem
+    names = {name: f"{stem}.{bpy.path.clean_name(name)}.png" for name in simulation.cameras}
+    others = [f"{stem}.truth.png"] * simulation.truth + [f"{stem}.cameras.json"] * bool(names) + list(names.values())
+    check_outputs([("output", path.with_name(name)) for name in (path.name, *others)], [])
     cameras = {name: _virtual_camera(scene, name) for name in simulation.cameras}
     if simulation.own_look:
         cameras = {
@@ -91,7 +97,6 @@ def simulation_steps(scene, simulation):
     write(scan, path, model)
     if simulation.truth:
         write_png(path.with_name(f"{stem}.truth.png"), truth)
-    names = {name: f"{stem}.{bpy.path.clean_name(name)}.png" for name in photos}
     for name, photo in photos.items():
         write_png(path.with_name(names[name]), photo.image)
     if photos:
@@ -142,7 +147,7 @@ def leveled(matrix, metres_per_unit, axis=1, sign=1.0):
 
 
 def _writer(path):
-    if path.name.lower().endswith(".scan.json"):
+    if path.name.lower().endswith(_PAIR_SUFFIX):
         return lambda scan, path, model: write_image_pair(
             scan, path, azimuth_deg=model.azimuth_deg, elevation_deg=model.elevation_deg
         )

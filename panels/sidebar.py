@@ -18,12 +18,13 @@ class _Step:
 
 
 class REFLCOLOR_UL_seeds(bpy.types.UIList):
-    """Seeds of a scan, with their pixel and their color"""
+    """Seeds of a scan: color, number, row and column"""
 
     def draw_item(self, _context, layout, _data, seed, _icon, _active_data, _active_property, index):
-        row = layout.row(align=True)
-        row.prop(seed, "color", text="")
-        row.label(text=f"{index + 1}:  row {seed.row}, column {seed.col}", translate=False)
+        split = layout.split(factor=0.3)
+        split.prop(seed, "color", text="")
+        row = split.row()
+        row.label(text=f"{index + 1}:  {seed.row}, {seed.col}", translate=False)
         if seed.photo:
             row.label(text="", icon="IMAGE_DATA")
 
@@ -80,6 +81,9 @@ class REFLCOLOR_PT_colorize(_Step, bpy.types.Panel):
         for name in ("alpha", "beta", "color_space"):
             column.prop(settings, name)
         column.row().prop(settings, "neighbors", expand=True)
+        column.prop(settings, "blend")
+        if settings.blend == "nearest":
+            column.prop(settings, "nearest")
         job = jobs.running()
         if job is not None:
             layout.progress(factor=job.fraction, text="Cancelling" if job.stopping else job.name)

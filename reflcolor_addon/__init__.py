@@ -4,7 +4,9 @@ The method is that of Oishi, Kurazume, Iwashita and Hasegawa, "Colorization of 3
 Reflectivity" (ICRA 2013). Everything here works on plain NumPy arrays and needs no Blender.
 """
 
-from .colorize import Colorization, colorize
+from .colorization import Colorization
+from .colorize import colorize
+from .colorizer import Colorizer
 from .errors import Cancelled, ImageError, OutputError, ReflcolorError, ScanError, SeedsError, SettingsError
 from .geodesic import geodesic_distances
 from .readers import read_scans
@@ -15,6 +17,7 @@ from .settings import Settings
 __all__ = [
     "Cancelled",
     "Colorization",
+    "Colorizer",
     "ImageError",
     "OutputError",
     "ReflcolorError",

@@ -1,14 +1,16 @@
-"""The weighted mean of eq. 1, taken seed by seed in memory that does not grow with the number of seeds."""
+"""The weighted mean of eq. 1 in NumPy: over all seeds, one after another, or over the nearest of every pixel.
+
+The weights r^-alpha (eq. 2) overflow for small r, so they are taken relative to the least distance r_min of a pixel:
+w = (r / r_min)^-alpha, at most 1. Seeds at distance 0 share the pixel equally.
+"""
 
 import numpy as np
 
+from .kernel import Mean
+
 
 class Blend:
-    """Sums eq. 1 over seeds that come one after another.
-
-    The weights r^-alpha (eq. 2) overflow for small r, so the sums are kept relative to the least distance so far:
-    w = (r / r_min)^-alpha, at most 1. When a nearer seed comes, the sums are scaled down. Seeds at distance 0 share the
-    pixel equally.
+    """Sums eq. 1 over seeds that come one after another; when a nearer seed comes, the sums are scaled down.
 
     Parameters
     ----------
@@ -19,35 +21,81 @@ class Blend:
     def __init__(self, shape, alpha):
         self._alpha = alpha
         self._count = 0
-        self._weights = np.zeros(shape)
-        self._sums = np.zeros((*shape, 2))
-        self.least = np.full(shape, np.inf)
-        self.nearest_seed = np.full(shape, -1, np.int32)
+        self._weight = np.zeros(shape)
+        self._sums = np.zeros((2, *shape))
+        self._least = np.full(shape, np.inf)
+        self._nearest_seed = np.full(shape, -1, np.int32)
 
-    def add(self, distance, chrominance):
-        """Add one seed: (H, W) distances (infinite where it does not reach) and its (2,) chrominance."""
-        distance = np.asarray(distance, np.float64)
-        nearer = distance < self.least
-        farther, nearest = np.where(nearer, self.least, distance), np.where(nearer, distance, self.least)
-        weight = _relative_weight(farther, nearest, self._alpha)
+    def add(self, distances, color):
+        """Add a seed: its (H, W) distances, infinite where it does not reach, and its two chrominances."""
+        distances = np.asarray(distances, np.float64)
+        nearer = distances < self._least
+        farther, least = np.where(nearer, self._least, distances), np.where(nearer, distances, self._least)
+        weight = _relative_weight(farther, least, self._alpha)
         own, kept = np.where(nearer, 1.0, weight), np.where(nearer, weight, 1.0)
-        self._weights = self._weights * kept + own
-        self._sums = self._sums * kept[..., None] + own[..., None] * np.asarray(chrominance)
-        self.least = nearest
-        self.nearest_seed[nearer] = self._count
+        self._weight = self._weight * kept + own
+        self._sums = self._sums * kept + own * np.reshape(color, (2, 1, 1))
+        self._least = least
+        self._nearest_seed[nearer] = self._count
         self._count += 1
 
-    def chrominance(self):
-        """Return the (H, W, 2) float64 chrominance of every pixel; 0 where no seed reaches."""
-        reached = np.isfinite(self.least)
-        return np.where(reached[..., None], self._sums, 0) / np.where(reached, self._weights, 1)[..., None]
+    def mean(self):
+        """Return the Mean of the seeds so far; more can be added afterwards."""
+        reached = np.isfinite(self._least)
+        chroma = np.where(reached, self._sums, 0) / np.where(reached, self._weight, 1)
+        single = (array.astype(np.float32) for array in (chroma, np.where(reached, self._weight, 0), self._least))
+        chroma, weight, least = single
+        return Mean(chroma=chroma, weight=weight, nearest_seed=self._nearest_seed.copy(), least=least)
+
+
+def blend_nearest(distances, seeds, colors, alpha):
+    """Take eq. 1 over the k nearest seeds of every pixel.
+
+    Parameters
+    ----------
+    distances : (H, W, k) float32
+        Ascending; infinite in empty places.
+    seeds : (H, W, k) int32
+        -1 in empty places.
+    colors : (S, 2) float
+        Chrominance of all seeds.
+    alpha : float
+
+    Returns
+    -------
+    mean : Mean
+    bound : (H, W) float32
+        The most by which the seeds left out could change either chrominance: each lies at least as far as the k-th,
+        and no color lies outside the range of the seeds' colors.
+    """
+    colors = np.asarray(colors, np.float64)
+    least = distances[..., 0].astype(np.float64)
+    each = distances.astype(np.float64)
+    weights = _relative_weight(each, np.broadcast_to(least[..., None], each.shape), alpha)
+    total = weights.sum(axis=-1)
+    reached = total > 0
+    chroma = np.moveaxis(
+        (weights[..., None] * colors[seeds]).sum(axis=-2) / np.where(reached, total, 1)[..., None], -1, 0
+    )
+    left_out = (len(colors) - distances.shape[-1]) * weights[..., -1]
+    farthest = np.maximum(
+        np.max(colors, axis=0)[:, None, None] - chroma, chroma - np.min(colors, axis=0)[:, None, None]
+    )
+    bound = farthest.max(axis=0) * np.maximum(left_out, 0) / np.where(reached, total + np.maximum(left_out, 0), 1)
+    mean = Mean(
+        chroma=np.where(reached, chroma, 0).astype(np.float32),
+        weight=total.astype(np.float32),
+        nearest_seed=seeds[..., 0].copy(),
+        least=distances[..., 0].copy(),
+    )
+    return mean, np.where(reached, bound, 0).astype(np.float32)
 
 
 def _relative_weight(farther, nearest, alpha):
     """(farther / nearest)^-alpha, in 0..1; 1 for two zeros, 0 for anything against zero or for the unreached."""
     weight = np.zeros(farther.shape)
-    weight[farther == 0] = 1.0
-    proper = (farther > 0) & np.isfinite(farther)
-    # This way around nothing can overflow.
+    weight[(farther == 0) & (nearest == 0)] = 1.0
+    proper = (nearest > 0) & np.isfinite(farther)
+    # Not (farther / nearest)^-alpha: that overflows for distances near the least number there is.
     weight[proper] = (nearest[proper] / farther[proper]) ** alpha
     return weight

@@ -39,7 +39,7 @@ class _DifferenceSpace:
         gray = np.asarray(gray, np.float64)
         red, blue = gray + red_minus_luma, gray + blue_minus_luma
         green = (gray - _LUMA[0] * red - _LUMA[2] * blue) / _LUMA[1]
-        return _to_bytes(np.stack([red, green, blue], axis=-1))
+        return np.stack([red, green, blue], axis=-1)
 
 
 class _LAlphaBeta:
@@ -56,7 +56,7 @@ class _LAlphaBeta:
         lightness = self._split(np.repeat(np.asarray(gray, np.float64)[..., None], 3, axis=-1))[..., :1]
         lms = 10 ** (np.concatenate([lightness, chrominance], axis=-1) @ np.linalg.inv(_LMS_TO_LAB).T)
         rgb = lms @ np.linalg.inv(_RGB_TO_LMS).T
-        return _to_bytes((rgb - _FLOOR) / (1 - _FLOOR) * 255)
+        return (rgb - _FLOOR) / (1 - _FLOOR) * 255
 
 
 class _CieLab:
@@ -75,7 +75,7 @@ class _CieLab:
         with warnings.catch_warnings():
             # A dark pixel with a strong chrominance lies outside the gamut; it is clipped, which is what we want.
             warnings.filterwarnings("ignore", message=".*negative Z values.*")
-            return _to_bytes(lab2rgb(np.concatenate([lightness, chrominance], axis=-1)) * 255)
+            return lab2rgb(np.concatenate([lightness, chrominance], axis=-1)) * 255
 
 
 _SPACES = {
@@ -125,9 +125,15 @@ def merge(gray, chrominance_image, color_space):
     rows = max(1, _CHUNK_PIXELS // max(1, rgb.shape[1]))
     for top in range(0, rgb.shape[0], rows):
         strip = slice(top, top + rows)
-        rgb[strip] = space.merge(gray[strip], np.asarray(chrominance_image[strip], np.float64))
+        joined = space.merge(gray[strip], np.asarray(chrominance_image[strip], np.float64))
+        rgb[strip] = np.rint(np.clip(joined, 0, 255))
     return rgb
 
 
-def _to_bytes(rgb):
-    return np.rint(np.clip(rgb, 0, 255)).astype(np.uint8)
+def levels_per_unit(color_space):
+    """Return how many 8-bit levels of red, green or blue one unit of chrominance is worth, at most, at middle gray."""
+    space, gray, step = _SPACES[color_space], np.full(2, 127.5), 1e-3
+    return max(
+        float(np.abs(np.diff(space.merge(gray, np.array([[0.0, 0.0], change])), axis=0)).max()) / step
+        for change in ([step, 0.0], [0.0, step])
+    )

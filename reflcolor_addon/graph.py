@@ -26,6 +26,8 @@ class PixelGraph:
     neighbors : {4, 8}
     wrap : bool
         Whether the left and the right edge are neighbors (a full turn).
+    step_cost : float
+        Added to every step (times sqrt(2) on a diagonal); the paper has none.
     """
 
     luminance: np.ndarray
@@ -34,6 +36,7 @@ class PixelGraph:
     beta: float = 1.0
     neighbors: int = 8
     wrap: bool = False
+    step_cost: float = 0.0
 
     @property
     def shape(self):
@@ -53,7 +56,7 @@ class PixelGraph:
         """Return every edge between valid neighbors once: (E,) int64 from, (E,) int64 to, (E,) float64 cost."""
         height, width = self.shape
         index = np.arange(height * width).reshape(self.shape)
-        starts, ends = [], []
+        starts, ends, costs = [], [], []
         for down, right in _OFFSETS[self.neighbors]:
             rows = height - down
             # A grid of one or two columns has no other neighbors around the back than it has already.
@@ -66,8 +69,9 @@ class PixelGraph:
             both = self.valid.ravel()[p] & self.valid.ravel()[q]
             starts.append(p[both])
             ends.append(q[both])
-        p, q = np.concatenate(starts), np.concatenate(ends)
-        return p, q, self.step(np.unravel_index(p, self.shape), np.unravel_index(q, self.shape))
+            costs.append(np.full(starts[-1].size, self.step_cost * np.hypot(down, right)))
+        p, q, cost = (np.concatenate(parts) for parts in (starts, ends, costs))
+        return p, q, cost + self.step(np.unravel_index(p, self.shape), np.unravel_index(q, self.shape))
 
     @cached_property
     def matrix(self):

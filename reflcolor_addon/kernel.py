@@ -9,7 +9,7 @@ number of threads.
     distances = kernel.field(graph, [pixel], control=control)                 # (H, W) float32
     blend = kernel.Blend((height, width), alpha)                              # one field after another
     blend.add(distances, (cb, cr))
-    mean = blend.finish()                                                     # a Mean
+    mean = blend.mean()                                                       # a Mean
     mean = kernel.blend_all(graph, pixels, colors, alpha, threads=2, control=control)
 
     distances, seeds = kernel.nearest(graph, pixels, k, control=control)      # (H, W, k) float32 and int32
@@ -361,9 +361,9 @@ class Blend:
             )
         )
 
-    def finish(self):
-        """Return the `Mean`; nothing can be added afterwards."""
-        mean, self._mean = self._mean, None
+    def mean(self):
+        """Return the `Mean` of the seeds so far; more can be added afterwards."""
+        mean = Mean(*(sums.copy() for sums in self._mean))
         _check(_library().rc_blend_finish(mean.weight.size, _address(mean.weight), *map(_address, mean.chroma)))
         return mean
 
@@ -434,7 +434,7 @@ def blend_all(graph, pixels, colors, alpha, *, threads=1, control=None, finished
         worker.join()
     if failures:
         raise failures[0]
-    return blend.finish()
+    return blend.mean()
 
 
 def blend_nearest(distances, seeds, colors, alpha):

@@ -11,12 +11,9 @@ def available_bytes():
     """Memory that can still be taken, in bytes; None where the platform does not say."""
     if sys.platform == "win32":
         return _available_on_windows()
-    try:
-        for line in Path("/proc/meminfo").read_text("ascii").splitlines():
-            if line.startswith("MemAvailable:"):
-                return int(line.split()[1]) * 1024
-    except (OSError, ValueError, IndexError):
-        pass
+    on_linux = [free for free in (_free_of_the_machine(), _free_of_the_container()) if free is not None]
+    if on_linux:
+        return min(on_linux)
     try:
         # macOS does not tell what is free; what is built in is the honest upper bound.
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
@@ -37,6 +34,25 @@ def _readable(count):
             return f"{count:.3g} {unit}"
         count /= 1024
     return f"{count:,.3g} TB"
+
+
+def _free_of_the_machine():
+    try:
+        for line in Path("/proc/meminfo").read_text("ascii").splitlines():
+            if line.startswith("MemAvailable:"):
+                return int(line.split()[1]) * 1024
+    except (OSError, ValueError, IndexError):
+        pass
+    return None
+
+
+def _free_of_the_container():
+    folder = Path("/sys/fs/cgroup")
+    try:
+        # Without a limit the file says "max", which is no number.
+        return max(0, int((folder / "memory.max").read_text()) - int((folder / "memory.current").read_text()))
+    except (OSError, ValueError):
+        return None
 
 
 def _available_on_windows():

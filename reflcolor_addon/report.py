@@ -6,7 +6,6 @@ import math
 import platform
 
 from .errors import ReflcolorError
-from .geodesic import ENGINE
 from .normalization import PERCENTILES
 from .version import __version__
 
@@ -69,7 +68,7 @@ def build_report(scan, colorization, settings, *, index, given_seeds, inputs, ou
             "colored": int((colorization.nearest_seed >= 0).sum()),
             "unreached": int((scan.valid & (colorization.nearest_seed < 0)).sum()),
         },
-        "engine": ENGINE,
+        "method": colorization.method,
         "warnings": [*scan.warnings, *colorization.warnings],
         "inputs": [{"role": role, "path": str(path)} | fingerprint(path) for role, path in inputs],
         "outputs": [{"option": option, "path": str(path)} for option, path in outputs],

@@ -10,6 +10,7 @@ COLOR_SPACES = ("ycbcr", "yuv", "lalphabeta", "cielab")
 NEIGHBORS = (4, 8)
 ALPHA_RANGE = (0.1, 64.0)
 BETA_RANGE = (0.0, 1e6)
+MAX_NEAREST = 1024
 PRESETS = {"Paper": {}}
 
 
@@ -27,8 +28,9 @@ class Settings:
         Where the two chrominance channels are blended.
     neighbors : {4, 8}
         Which pixels a path may step to.
-    nearest : int or None
-        How many of its nearest seeds color a pixel; None: all of them, as eq. 1 has it.
+    nearest : int, "auto" or None
+        How many of its nearest seeds color a pixel; None: all of them, as eq. 1 has it; "auto": all of them where
+        that is quick, else as many as it takes to be close to that (see ``Colorization.method``).
 
     Raises
     ------
@@ -40,7 +42,7 @@ class Settings:
     beta: float = 1.0
     color_space: str = "ycbcr"
     neighbors: int = 8
-    nearest: int | None = None
+    nearest: int | str | None = None
 
     def __post_init__(self):
         _check_range("alpha", self.alpha, ALPHA_RANGE)
@@ -49,10 +51,12 @@ class Settings:
             raise SettingsError(f"color_space: expected one of {', '.join(COLOR_SPACES)}, found {self.color_space!r}")
         if self.neighbors not in NEIGHBORS:
             raise SettingsError(f"neighbors: expected 4 or 8, found {self.neighbors!r}")
-        if self.nearest is not None and not (
-            isinstance(self.nearest, Integral) and not isinstance(self.nearest, bool) and self.nearest >= 1
-        ):
-            raise SettingsError(f"nearest: expected a whole number from 1 up, or None for all, found {self.nearest!r}")
+        whole = isinstance(self.nearest, Integral) and not isinstance(self.nearest, bool)
+        if self.nearest not in (None, "auto") and not (whole and 1 <= self.nearest <= MAX_NEAREST):
+            raise SettingsError(
+                f'nearest: expected a whole number from 1 to {MAX_NEAREST}, "auto", or None for all, '
+                f"found {self.nearest!r}"
+            )
 
     @classmethod
     def preset(cls, name, **changes):

@@ -132,6 +132,11 @@ class VirtualCamera:
             "pose": np.asarray(self.pose).tolist(),
         }
 
+    @classmethod
+    def from_dict(cls, values):
+        """Return the camera that `as_dict` described."""
+        return cls(**values | {"pose": np.array(values["pose"]), "distortion": tuple(values["distortion"])})
+
     def _center(self):
         return np.array([self.width / 2, self.height / 2])
 

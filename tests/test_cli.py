@@ -22,10 +22,11 @@ def test_colorize_writes_the_colorized_reflectance_image(run_cli, cli_folder):
     assert (read_image(cli_folder / "out.png") == expected.rgb).all()
 
 
-def test_colorize_passes_every_setting_on(run_cli, cli_folder):
-    options = ("--alpha", "2.5", "--beta", "0", "--color-space", "cielab", "--neighbors", "4")
+@pytest.mark.parametrize(("given", "nearest"), [("auto", "auto"), ("all", None), ("2", 2)])
+def test_colorize_passes_every_setting_on(run_cli, cli_folder, given, nearest):
+    options = ("--alpha", "2.5", "--beta", "0", "--color-space", "cielab", "--neighbors", "4", "--nearest", given)
     assert run_cli(*COLORIZE, *options, "-o", "out.png", "--report", "report.json")[0] == 0
-    settings = Settings(alpha=2.5, beta=0.0, color_space="cielab", neighbors=4)
+    settings = Settings(alpha=2.5, beta=0.0, color_space="cielab", neighbors=4, nearest=nearest)
     (scan,) = read_scans(cli_folder / "garage.ptx")
     expected = colorize(scan, Seeds.load(cli_folder / "seeds.json"), settings)
     assert (read_image(cli_folder / "out.png") == expected.rgb).all()

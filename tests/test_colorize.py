@@ -8,17 +8,41 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from small_scans import random_scan, scan_from_ranges
 
-from reflcolor_addon import Cancelled, ReflcolorError, Seeds, SeedsError, Settings, colorize, colorspaces, memory
+from reflcolor_addon import (
+    Cancelled,
+    Colorizer,
+    ReflcolorError,
+    Seeds,
+    SeedsError,
+    Settings,
+    colorize,
+    colorspaces,
+    kernel,
+    memory,
+)
 from reflcolor_addon.blending import Blend
-from reflcolor_addon.geodesic import distance_fields, geodesic_distances
+from reflcolor_addon.engines import engine_for
+from reflcolor_addon.geodesic import geodesic_distances
 from reflcolor_addon.graph import PixelGraph
 from reflcolor_addon.normalization import normalize
 from reflcolor_addon.reference import reference_blend, reference_distances
 from reflcolor_addon.settings import COLOR_SPACES
 
+# Paths of up to 54 steps in float32.
+FLOAT32 = 4e-6
 betas = st.sampled_from([0.0, 1e-3, 1.0, 1e6])
 neighbors = st.sampled_from([4, 8])
 any_width = st.integers(1, 9)
+
+
+@pytest.fixture(params=["kernel", "scipy"], autouse=True)
+def engine(request, monkeypatch):
+    """Everything holds with the native kernel and without."""
+    if request.param == "scipy":
+        monkeypatch.setattr(kernel, "available", lambda: False)
+    else:
+        assert kernel.available(), f"{kernel.reason()}: run make kernel"
+    return request.param
 
 
 @st.composite
@@ -73,11 +97,11 @@ def test_distances_equal_the_reference(grid, data, beta, neighbors, wrap):
     graph = PixelGraph(
         luminance=luminance, range_image=range_image, valid=valid, beta=beta, neighbors=neighbors, wrap=wrap
     )
-    for distance, row, col in zip(distance_fields(graph, rows, cols), rows, cols, strict=True):
+    for distance, row, col in zip(geodesic_distances(graph, rows, cols), rows, cols, strict=True):
         expected = reference_distances(
             luminance, range_image, valid, (row, col), beta=beta, neighbors=neighbors, wrap=wrap
         )
-        np.testing.assert_allclose(distance, expected, rtol=1e-12, atol=0)
+        np.testing.assert_allclose(distance, expected, rtol=FLOAT32, atol=0)
 
 
 distances = st.sampled_from([0.0, 1e-300, 1e-9, 1.0, 1.0 + 1e-9, 3.0, 1e13, np.inf]) | st.floats(0, 1e6)
@@ -99,10 +123,11 @@ def test_the_blend_equals_the_reference_whatever_the_distances(fields, alpha):
         blend.add(field, color)
     expected = reference_blend(fields, colors, alpha)
     reached = np.isfinite(fields).any(axis=0)
-    np.testing.assert_allclose(blend.chrominance()[reached], expected[reached], rtol=1e-9, atol=1e-9)
-    assert (blend.chrominance()[~reached] == 0).all()
-    assert (blend.least == fields.min(axis=0)).all()
-    assert (blend.nearest_seed == np.where(reached, fields.argmin(axis=0), -1)).all()
+    mean = blend.mean()
+    np.testing.assert_allclose(mean.chroma[:, reached].T, expected[reached], rtol=1e-6, atol=1e-5)
+    assert (mean.chroma[:, ~reached] == 0).all()
+    assert (mean.least == fields.min(axis=0).astype(np.float32)).all()
+    assert (mean.nearest_seed == np.where(reached, fields.argmin(axis=0), -1)).all()
 
 
 @pytest.mark.parametrize("space", COLOR_SPACES)
@@ -132,13 +157,17 @@ def test_the_result_equals_a_brute_force_evaluation(space, grid, data, alpha, be
     expected = reference_blend(fields, colorspaces.chrominance(rgb, space), alpha)
     reached = np.isfinite(fields).any(axis=0)
     # Where a channel sits on the edge of two levels, a chrominance that differs in its last digits may tip it over.
+    chrominance = colorspaces.chrominance(rgb, space)
+    last_digits = 2 * alpha * FLOAT32 * np.ptp(chrominance, axis=0) + 1e-6 * np.abs(chrominance).max()
     tips = [
-        colorspaces.merge(luminance, np.nan_to_num(expected) + 1e-7 * np.array(tip), space)
+        colorspaces.merge(luminance, np.nan_to_num(expected) + last_digits * tip, space)
         for tip in itertools.product((-1, 0, 1), repeat=2)
     ]
     assert ((result.rgb >= np.min(tips, axis=0)) & (result.rgb <= np.max(tips, axis=0)))[reached].all()
     assert (result.rgb[~reached] == np.rint(luminance)[~reached, None]).all()
-    assert (result.nearest_seed == np.where(reached, fields.argmin(axis=0), -1)).all()
+    assert ((result.nearest_seed >= 0) == reached).all()
+    nearest = np.take_along_axis(fields, np.maximum(result.nearest_seed, 0)[None], axis=0)[0]
+    assert (nearest[reached] <= fields.min(axis=0)[reached] * (1 + FLOAT32)).all()
     assert ((result.confidence > 0) == reached).all()
 
 
@@ -148,11 +177,12 @@ def test_on_a_line_the_blend_is_the_closed_form():
     graph = PixelGraph(luminance=luminance, range_image=np.zeros((1, 3)), valid=np.ones((1, 3), bool))
     fields = geodesic_distances(graph, [0, 0], [0, 2])
     assert fields.tolist() == [[[0, 1, 3]], [[3, 2, 0]]]
-    blend = Blend((1, 3), 6.0)
+    blend = engine_for(graph).blend(6.0)
     blend.add(fields[0], (64.0, 0.0))
     blend.add(fields[1], (0.0, 64.0))
-    assert blend.chrominance()[0, 1] == pytest.approx([64 * 64 / 65, 64 / 65])
-    assert blend.chrominance()[0, [0, 2]].tolist() == [[64, 0], [0, 64]]
+    chroma = blend.mean().chroma[:, 0]
+    assert chroma[:, 1] == pytest.approx([64 * 64 / 65, 64 / 65])
+    assert chroma[:, [0, 2]].T.tolist() == [[64, 0], [0, 64]]
 
 
 def test_a_range_jump_makes_the_step_longer_and_beta_0_leaves_it_out():
@@ -262,3 +292,122 @@ def test_a_scan_too_large_for_the_memory_is_refused_before_the_work(monkeypatch)
     monkeypatch.setattr(memory, "available_bytes", lambda: 1000)
     with pytest.raises(ReflcolorError, match=r"small: colorizing 6 rows x 10 columns needs about .* of memory"):
         colorize(random_scan(), Seeds([0], [0], [[1, 2, 3]]))
+
+
+def test_colorizing_anew_after_any_change_gives_the_bytes_of_colorizing_at_once():
+    scan = random_scan(shape=(20, 30))
+    rng = np.random.default_rng(0)
+    rows, cols = rng.integers(0, 20, 12).tolist(), rng.integers(0, 30, 12).tolist()
+    colors = rng.integers(0, 256, (12, 3)).tolist()
+    colorizer = Colorizer(scan)
+    for change in (
+        lambda: None,
+        lambda: (rows.append(3), cols.append(4), colors.append([9, 200, 30])),
+        lambda: (rows.pop(2), cols.pop(2), colors.pop(2)),
+        lambda: rows.__setitem__(5, 19),
+        lambda: colors.__setitem__(0, [255, 0, 0]),
+        lambda: (rows.append(3), cols.append(4), colors.append([0, 0, 255])),
+    ):
+        change()
+        seeds = Seeds(rows, cols, np.array(colors))
+        for settings in (Settings(), Settings(alpha=2.0), Settings(beta=0.0), Settings(color_space="cielab")):
+            anew, at_once = colorizer.colorize(seeds, settings), colorize(scan, seeds, settings)
+            assert anew.rgb.tobytes() == at_once.rgb.tobytes()
+            assert anew.confidence.tobytes() == at_once.confidence.tobytes()
+            assert anew.nearest_seed.tobytes() == at_once.nearest_seed.tobytes()
+
+
+def test_a_change_of_one_seed_computes_one_field_at_most(monkeypatch):
+    scan = random_scan(shape=(20, 30))
+    colorizer, computed = Colorizer(scan), []
+    kind = type(
+        engine_for(PixelGraph(luminance=np.zeros((1, 1)), range_image=np.zeros((1, 1)), valid=scan.valid[:1, :1]))
+    )
+    field = kind.field
+    monkeypatch.setattr(
+        kind, "field", lambda self, pixel, control: computed.append(pixel) or field(self, pixel, control)
+    )
+
+    def fields_for(rows, cols, colors):
+        computed.clear()
+        colorizer.colorize(Seeds(rows, cols, np.array(colors)))
+        return len(computed)
+
+    colors = [[9, 9, 9], [99, 0, 0], [0, 99, 0]]
+    assert fields_for([1, 2, 3], [4, 5, 6], colors) == 3
+    assert fields_for([1, 2, 3, 4], [4, 5, 6, 7], [*colors, [5, 5, 5]]) == 1
+    assert fields_for([1, 9, 3, 4], [4, 5, 6, 7], [*colors, [5, 5, 5]]) == 1
+    assert fields_for([1, 9, 3, 4], [4, 5, 6, 7], [*colors, [50, 5, 5]]) == 0
+    assert fields_for([1, 3, 4], [4, 6, 7], [*colors[:2], [50, 5, 5]]) == 0
+
+
+def test_fields_are_held_within_the_limit_and_the_oldest_goes_first():
+    scan = random_scan(shape=(20, 30))
+    rows, cols = np.arange(10), np.arange(10)
+    colors = np.random.default_rng(0).integers(0, 256, (10, 3))
+    colorizer = Colorizer(scan, memory=5000)
+    assert colorizer.held_bytes == 0
+    result = colorizer.colorize(Seeds(rows, cols, colors))
+    assert 0 < colorizer.held_bytes <= 5000
+    # Recoloring the first seed needs all fields again, most of which were dropped.
+    colors[0] = 7
+    result = colorizer.colorize(Seeds(rows, cols, colors))
+    assert result.rgb.tobytes() == colorize(scan, Seeds(rows, cols, colors)).rgb.tobytes()
+
+
+def test_the_number_of_threads_changes_no_bit():
+    scan = random_scan(shape=(40, 50))
+    rng = np.random.default_rng(1)
+    seeds = Seeds(rng.integers(0, 40, 9), rng.integers(0, 50, 9), rng.integers(0, 256, (9, 3)))
+    results = {Colorizer(scan, threads=threads).colorize(seeds).rgb.tobytes() for threads in (1, 2, 5)}
+    assert len(results) == 1
+
+
+@given(data=st.data(), grid=grids(), k=st.integers(1, 7), alpha=st.sampled_from([0.5, 6.0]))
+def test_the_nearest_seeds_differ_from_all_by_no_more_than_the_bound(data, grid, k, alpha):
+    luminance, range_image, valid = grid
+    valid[0, 0] = True
+    rows, cols = draw_pixels(data, valid, most=7)
+    graph = PixelGraph(luminance=luminance, range_image=range_image, valid=valid)
+    colors = np.random.default_rng(rows.size).uniform(-128, 128, (rows.size, 2)).astype(np.float32)
+    engine = engine_for(graph)
+    pixels = np.ravel_multi_index((rows, cols), valid.shape)
+    mean, bound = engine.nearest(pixels, colors, alpha, min(k, rows.size), engine.control())
+    expected = reference_blend(geodesic_distances(graph, rows, cols), colors, alpha)
+    reached = np.isfinite(mean.least)
+    assert (reached == ~np.isnan(expected[..., 0])).all()
+    off = np.abs(np.moveaxis(mean.chroma, 0, -1) - expected).max(axis=-1)[reached]
+    assert (off <= bound[reached] + 2e-3).all()
+    if k >= rows.size:
+        assert (bound == 0).all()
+
+
+def test_auto_takes_all_seeds_where_that_is_quick_else_the_nearest_and_says_which(monkeypatch, engine):
+    scan = random_scan(shape=(20, 30))
+    rng = np.random.default_rng(2)
+    seeds = Seeds(rng.integers(0, 20, 60), rng.integers(0, 30, 60), rng.integers(0, 256, (60, 3)))
+    assert colorize(scan, seeds, Settings(nearest="auto")).method["nearest"] is None
+    monkeypatch.setattr("reflcolor_addon.colorizer.AUTO_EXACT_PIXEL_SEEDS", 1000)
+    method = colorize(scan, seeds, Settings(nearest="auto")).method
+    if engine == "scipy":
+        assert method["nearest"] is None and "slower" in method["note"]
+    else:
+        assert method["nearest"] in (8, 16, 32) and method["note"] is None
+        assert 0 <= method["bound_levels"]["p99.9"] <= method["bound_levels"]["max"]
+
+
+def test_both_engines_agree(monkeypatch):
+    scan = random_scan(shape=(30, 40))
+    rng = np.random.default_rng(3)
+    seeds = Seeds(rng.integers(0, 30, 20), rng.integers(0, 40, 20), rng.integers(0, 256, (20, 3)))
+    for settings in (Settings(), Settings(nearest=5)):
+        monkeypatch.setattr(kernel, "available", lambda: True)
+        native = colorize(scan, seeds, settings)
+        monkeypatch.setattr(kernel, "available", lambda: False)
+        fallback = colorize(scan, seeds, settings)
+        assert np.abs(native.rgb.astype(int) - fallback.rgb).max() <= 1
+        assert (native.nearest_seed == fallback.nearest_seed).mean() > 0.999
+        if settings.nearest:
+            assert native.method["bound_levels"]["max"] == pytest.approx(
+                fallback.method["bound_levels"]["max"], rel=0.01
+            )

@@ -171,7 +171,13 @@ def test_the_scene_stays_as_it_was(blender, renders):
     def state():
         kinds = (blender.data.scenes, blender.data.cameras, blender.data.objects, blender.data.worlds)
         render = scene.render
-        return [sorted(kind.keys()) for kind in kinds], render.engine, render.filepath, render.resolution_x, scene.camera
+        return (
+            [sorted(kind.keys()) for kind in kinds],
+            render.engine,
+            render.filepath,
+            render.resolution_x,
+            scene.camera,
+        )
 
     before = state()
     scan(renders, blender, at_height(1.0))
@@ -270,6 +276,24 @@ def test_a_suffix_that_is_no_scan_is_one_clear_line(blender, simulation, tmp_pat
     with pytest.raises(ValueError, match=r"expected \.ptx, \.e57 or \.scan\.json"):
         simulate(blender, simulation, tmp_path / "yard.obj")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_that_is_not_there_is_told_before_the_work(blender, simulation, tmp_path):
+    pose = at_height(1.0)
+    what = simulation.Simulation(path=tmp_path / "nowhere" / "yard.ptx", pose=pose, model=IDEAL)
+    with pytest.raises(ValueError, match="there is no folder"):
+        next(simulation.simulation_steps(blender.context.scene, what))
+
+
+def test_a_cancelled_simulation_leaves_nothing(blender, simulation, tmp_path):
+    add_box(blender, (0, 4, 1), (9, 1, 9))
+    scenes = len(blender.data.scenes)
+    what = simulation.Simulation(path=tmp_path / "yard.ptx", pose=at_height(1.0), model=IDEAL)
+    steps = simulation.simulation_steps(blender.context.scene, what)
+    next(steps)
+    steps.close()
+    assert not list(tmp_path.iterdir())
+    assert len(blender.data.scenes) == scenes
 
 
 def test_a_station_that_is_not_there_is_one_clear_line(blender, simulation):

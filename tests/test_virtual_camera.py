@@ -1,5 +1,7 @@
 """The virtual camera against points whose pictures are known."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -43,6 +45,14 @@ def test_distorting_a_picture_moves_what_it_shows_to_where_points_project(distor
     rays = np.dstack([(bent - [30, 20]) / 50.0, np.ones((40, 60))])
     rows, columns = np.mgrid[:40, :60] + 0.5
     assert camera.project(rays)[0] == pytest.approx(np.stack([columns, rows], axis=-1), abs=1e-6)
+
+
+def test_a_described_camera_projects_as_before():
+    camera = VirtualCamera(
+        width=40, height=30, focal_px=35.5, pose=look_at((1, 2, 3), (4, 8, 2)), distortion=(-0.1, 0.02)
+    )
+    again = VirtualCamera.from_dict(json.loads(json.dumps(camera.as_dict())))
+    assert np.array_equal(again.project([[4, 7, 2], [5, 9, 1]])[0], camera.project([[4, 7, 2], [5, 9, 1]])[0])
 
 
 def test_exposure_and_white_balance_multiply_light():

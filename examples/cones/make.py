@@ -18,7 +18,9 @@ from examples.cones import scene as cones  # noqa: E402
 from examples.scenes import shooting  # noqa: E402
 
 SAMPLES = 48
-SCANNER_HEIGHT_M = 1.25
+# The scanner stands 1.25 m above the floor.
+POSE = np.eye(4)
+POSE[2, 3] = 1.25
 MODEL = shooting.scanner.ScannerModel(
     rows=300,
     columns=450,
@@ -79,10 +81,8 @@ SEEDS = (
 def main(folder):
     """Write the example into ``folder``."""
     folder.mkdir(parents=True, exist_ok=True)
-    pose = np.eye(4)
-    pose[2, 3] = SCANNER_HEIGHT_M
     with shooting.renders.SceneRenders(cones.build()) as scene_renders:
-        scan, truth = shooting.scanner.simulate_scan(scene_renders.caster(pose), MODEL, name="cones", pose=pose)
+        scan, truth = shooting.scanner.simulate_scan(scene_renders.caster(POSE), MODEL, name="cones", pose=POSE)
         photo = scene_renders.photo(CAMERA, samples=SAMPLES)
     shooting.write_scan(scan, MODEL, folder / "cones.scan.json")
     shooting.write_photo(photo, folder / "photo.jpg")

@@ -8,7 +8,7 @@ import numpy as np
 
 def empty_scene():
     """Start from nothing; return the scene."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     return bpy.context.scene
 
 

@@ -59,6 +59,14 @@ def add_arguments(parser):
         help="pixels that a path may step to (default %(default)s)",
     )
     parser.add_argument(
+        "--nearest",
+        type=_nearest,
+        default="auto",
+        metavar="K",
+        help='seeds that color a pixel: "all", a number for its nearest ones, or "auto": all where that takes about two '
+        "seconds, else as many as it takes to be close to that (default auto)",
+    )
+    parser.add_argument(
         "--scan",
         dest="wanted",
         metavar="NAME_OR_INDEX",
@@ -85,6 +93,7 @@ def run(arguments, session):
         beta=arguments.beta,
         color_space=arguments.color_space,
         neighbors=arguments.neighbors,
+        nearest=arguments.nearest,
     )
     scene_paths = scene_outputs(arguments.output, arguments.render, session.scene_writer)
     times = {}
@@ -130,6 +139,11 @@ def run(arguments, session):
             _write_json(arguments.report, report | {"times_s": times})
     for _, path in outputs:
         session.console.print(f"wrote {path}")
+
+
+def _nearest(text):
+    """What follows --nearest, as a setting."""
+    return {"all": None, "auto": "auto"}[text] if text in ("all", "auto") else int(text)
 
 
 def _load_seeds(arguments, session):

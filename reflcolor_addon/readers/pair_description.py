@@ -54,7 +54,11 @@ def describe_pair(first, second, model, *, range_scale, swap=False):
     model = {key: _as_typed(value) for key, value in model.items()}
     path = reflectance_image.with_name(f"{reflectance_image.stem}+{range_image.stem}.scan.json")
     write_scan_json(
-        path, range_image=range_image, reflectance_image=reflectance_image, model=model, range_scale=_as_typed(range_scale)
+        path,
+        range_image=range_image,
+        reflectance_image=reflectance_image,
+        model=model,
+        range_scale=_as_typed(range_scale),
     )
     return path
 

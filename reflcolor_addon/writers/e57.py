@@ -26,15 +26,17 @@ def write_e57(scans, path):
     Raises
     ------
     OutputError
-        If a pose scales or shears, a grid has more than 65536 rows or columns, a scan has no return, or the file
-        cannot be written.
+        If a pose scales or shears, a grid has more than 65536 rows or columns, a scan has no return, this platform has
+        no pye57, or the file cannot be written.
     """
     scans = [scans] if hasattr(scans, "points") else list(scans)
     for scan in scans:
         _check(scan, path)
-    with written_atomically(path) as temporary:
+    try:
         from pye57 import libe57
-
+    except ModuleNotFoundError:
+        raise OutputError(f"{path}: cannot be written: E57 needs pye57, which is not there; write it as PTX") from None
+    with written_atomically(path) as temporary:
         image = libe57.ImageFile(str(temporary), "w")
         try:
             document = _Document(libe57, image)

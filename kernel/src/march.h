@@ -1,0 +1,199 @@
+/* The propagation of distances that both rc_field and rc_nearest are made of. */
+#ifndef RC_MARCH_H
+#define RC_MARCH_H
+
+#include "lanes.h"
+#include "queue.h"
+#include "reflcolor_kernel.h"
+
+/* Pixels between two looks at the cancel flag: some tens of microseconds. */
+#define RC_POLL 4096
+
+typedef struct {
+    const float *y, *d;
+    int32_t stride; /* of a plane: width + 2 */
+    int32_t width;
+    float beta;
+    unsigned allowed; /* bit 4 * row + column of the 3 x 3 neighbourhood */
+    int wrap;
+    float cost[12]; /* constant part of the step to each neighbour, rows of four */
+    int32_t offset[12];
+} rc_steps;
+
+static inline void rc_steps_init(rc_steps *s, const rc_graph *g)
+{
+    const float diagonal = g->step_cost * 1.41421356237309504880f;
+    s->y = g->y;
+    s->d = g->d;
+    s->width = (int32_t)g->width;
+    s->stride = (int32_t)g->width + 2;
+    s->beta = g->beta;
+    s->wrap = g->wrap != 0;
+    s->allowed = g->neighbors == 8 ? 0x757u : 0x252u;
+    for (int i = 0; i < 12; i++) {
+        const int row = i / 4 - 1, column = i % 4 - 1;
+        s->offset[i] = row * s->stride + column;
+        s->cost[i] = row && column ? diagonal : g->step_cost;
+    }
+}
+
+/* Costs of going from pixel p, which lies `here` away, to the three (four) pixels from plane position q on. */
+static inline lanes rc_reach(const rc_steps *s, int64_t q, lanes here, lanes y, lanes d, lanes beta, const float *cost)
+{
+    const lanes dd = lanes_sub(lanes_load(s->d + q), d);
+    const lanes dy = lanes_abs(lanes_sub(lanes_load(s->y + q), y));
+    const lanes per_unit = lanes_add(lanes_mul(beta, lanes_mul(dd, dd)), lanes_all(1.0f));
+    return lanes_add(here, lanes_add(lanes_mul(per_unit, dy), lanes_load(cost)));
+}
+
+/* A wrapped image has copies of its edge columns in the rim: the pixel itself for a rim position. */
+static inline int32_t rc_unwrap(const rc_steps *s, int32_t q)
+{
+    const int32_t column = q % s->stride;
+    return column == 0 ? q + s->width : column == s->width + 1 ? q - s->width : q;
+}
+
+/* Give pixel q and its copies in the rim a value. */
+static inline void rc_set(const rc_steps *s, float *current, int32_t q, float value)
+{
+    current[q] = value;
+    if (s->wrap) {
+        const int32_t column = q % s->stride;
+        if (column == 1) {
+            current[q + s->width] = value;
+        }
+        if (column == s->width) {
+            current[q - s->width] = value;
+        }
+    }
+}
+
+/* Pixels settled, each once, in the order of their first settling. */
+typedef struct {
+    int32_t *pixel;
+    int64_t used, room;
+} rc_trail;
+
+static inline int rc_trail_grow(rc_trail *t)
+{
+    const int64_t room = t->room ? 2 * t->room : 4096;
+    int32_t *pixel = realloc(t->pixel, (size_t)room * sizeof *pixel);
+    if (!pixel) {
+        return 0;
+    }
+    t->pixel = pixel;
+    t->room = room;
+    return 1;
+}
+
+static inline void rc_progress(const rc_control *control, int64_t by)
+{
+    if (control->progress) {
+        __atomic_fetch_add(control->progress, by, __ATOMIC_RELAXED);
+    }
+}
+
+/* A pixel the propagation starts from. */
+static inline void rc_start(const rc_steps *s, rc_queue *queue, float *current, uint8_t *flags, int32_t p, float at)
+{
+    rc_set(s, current, p, at);
+    flags[p] |= RC_WAITING;
+    rc_push(queue, at, p);
+}
+
+/* Settle everything in the queue. `current` holds, per plane position, the distance below which a path is of
+ * interest, and afterwards the distance itself where one was found. `flags` is a plane of bytes, 0 at the start, and
+ * again at the end but for RC_SETTLED on the trail's pixels. `trail` and `owner` may be null: what was settled, and a
+ * value handed on from each pixel to those reached through it.
+ *
+ * Pixels are settled in batches: first all costs, which takes no branch, then the writes. A wrongly predicted branch
+ * among the writes is then found out at once, and not after the dozen dependent operations of a cost. */
+static inline int32_t rc_march(const rc_steps *s, rc_queue *queue, float *current, uint8_t *flags, rc_trail *trail,
+                               int32_t *owner, const int wrap, const rc_control *control)
+{
+    const lanes beta = lanes_all(s->beta);
+    int64_t until_poll = RC_POLL;
+    int32_t bucket;
+    while ((bucket = rc_next(queue, current, flags)) >= 0) {
+        int64_t settled = 0;
+        int taken;
+        int32_t batch[RC_BATCH];
+        while ((taken = rc_pop(queue, bucket, batch))) {
+            float found[RC_BATCH][12];
+            unsigned hits[RC_BATCH];
+            int live = 0;
+            for (int n = 0; n < taken; n++) {
+                const int32_t p = batch[n];
+                batch[live] = p;
+                live += flags[p] & RC_WAITING;
+                flags[p] &= (uint8_t)~RC_WAITING;
+            }
+            for (int n = 0; n < live; n++) {
+                const int32_t p = batch[n];
+                const lanes here = lanes_all(current[p]), y = lanes_all(s->y[p]), d = lanes_all(s->d[p]);
+                unsigned less = 0;
+                for (int row = 0; row < 3; row++) {
+                    const int64_t q = (int64_t)p + s->offset[4 * row];
+                    const lanes to = rc_reach(s, q, here, y, d, beta, s->cost + 4 * row);
+                    lanes_store(found[n] + 4 * row, to);
+                    less |= lanes_less(to, lanes_load(current + q)) << (4 * row);
+                }
+                hits[n] = less & s->allowed;
+            }
+            for (int n = 0; n < live; n++) {
+                for (unsigned h = hits[n]; h; h &= h - 1) {
+                    const int i = __builtin_ctz(h);
+                    const float to = found[n][i];
+                    int32_t q = batch[n] + s->offset[i];
+                    q = wrap ? rc_unwrap(s, q) : q;
+                    const float before = current[q];
+                    if (!(to < before)) {
+                        continue; /* another pixel of the batch was quicker */
+                    }
+                    if (wrap) {
+                        rc_set(s, current, q, to);
+                    } else {
+                        current[q] = to;
+                    }
+                    if (owner) {
+                        owner[q] = owner[batch[n]];
+                    }
+                    /* A pixel that waits in the right bucket already is not put there twice. */
+                    if (!(flags[q] & RC_WAITING) || (rc_bits(before) ^ rc_bits(to)) >> queue->shift) {
+                        flags[q] |= RC_WAITING;
+                        rc_push(queue, to, q);
+                    }
+                }
+            }
+            if (trail) {
+                if (trail->room - trail->used < RC_BATCH && !rc_trail_grow(trail)) {
+                    return RC_MEMORY;
+                }
+                for (int n = 0; n < live; n++) {
+                    trail->pixel[trail->used] = batch[n];
+                    trail->used += !(flags[batch[n]] & RC_SETTLED);
+                    flags[batch[n]] |= RC_SETTLED;
+                }
+            }
+            settled += live;
+            until_poll -= taken;
+            if (until_poll <= 0) {
+                until_poll += RC_POLL;
+                rc_progress(control, RC_POLL);
+                if (control->cancel && *control->cancel) {
+                    return RC_CANCELLED;
+                }
+            }
+            if (settled >= RC_DEAL_SETTLED && bucket < RC_LAST) {
+                rc_deal(queue, bucket, current, flags);
+                break;
+            }
+        }
+        if (queue->failed) {
+            return RC_MEMORY;
+        }
+    }
+    return RC_OK;
+}
+
+#endif

@@ -1,0 +1,158 @@
+/* The k nearest seeds of every pixel.
+ *
+ * One propagation per seed, confined to the pixels where the seed can be among the k nearest. What confines it is, per
+ * pixel, the k-th least distance found so far, or before k were found a bound on it from bounds.c. `current` in
+ * rc_march holds exactly that number, so that confining costs the inner loop nothing. If seed j is among the k nearest
+ * of a pixel, it is so for every pixel on its path, so that the confined distances are the true ones.
+ */
+#include <math.h>
+
+#include "bounds.h"
+#include "check.h"
+#include "march.h"
+
+/* Entries ahead of the one at work whose lists are called into the cache. */
+#define RC_AHEAD 8
+
+/* Insert (d, j) into a list of k ascending places, behind its equals; the last place is lost. Branchless: where to
+ * insert cannot be foreseen. */
+static inline void insert(float *list, int32_t *ids, int32_t k, float d, int32_t j)
+{
+    const int32_t whole = k & ~3;
+    const lanes new_d = lanes_all(d), new_j = lanes_all_int(j);
+    const int first = list[0] <= d;
+    const float first_d = list[0];
+    const int32_t first_j = ids[0];
+    for (int32_t i = k - 1; i >= whole && i > 0; i--) {
+        const int shift = !(list[i - 1] <= d), here = !(list[i] <= d);
+        ids[i] = here ? (shift ? ids[i - 1] : j) : ids[i];
+        list[i] = here ? (shift ? list[i - 1] : d) : list[i];
+    }
+    for (int32_t i = whole - 4; i >= 0; i -= 4) {
+        /* The first place has none before it; what is read there instead is replaced below. */
+        const lanes at = lanes_load(list + i), before = lanes_load(list + i - 1);
+        const lanes at_j = lanes_load_int(ids + i), before_j = lanes_load_int(ids + i - 1);
+        lanes_store_int(ids + i, lanes_choose(at, new_d, at_j, lanes_choose(before, new_d, new_j, before_j)));
+        lanes_store(list + i, lanes_choose(at, new_d, at, lanes_choose(before, new_d, new_d, before)));
+    }
+    list[0] = first ? first_d : d;
+    ids[0] = first ? first_j : j;
+}
+
+/* Insert seed j into the lists of all pixels it settled, and make `current` each list's last distance again. */
+static void insert_trail(const rc_steps *steps, const rc_trail *trail, uint8_t *flags, int32_t k, int32_t j,
+                         float *distances, int32_t *seeds, float *current)
+{
+    for (int64_t n = 0; n < trail->used; n++) {
+        if (n + RC_AHEAD < trail->used) {
+            const int64_t ahead = (int64_t)trail->pixel[n + RC_AHEAD] * k;
+            for (int32_t i = 0; i < k; i += 16) {
+                __builtin_prefetch(distances + ahead + i, 1);
+                __builtin_prefetch(seeds + ahead + i, 1);
+            }
+        }
+        const int32_t p = trail->pixel[n];
+        float *const list = distances + (int64_t)p * k;
+        insert(list, seeds + (int64_t)p * k, k, current[p], j);
+        rc_set(steps, current, p, list[k - 1]);
+        flags[p] = 0;
+    }
+}
+
+/* Start all lists: k places that hold the pixel's bound and no seed. */
+static void clear_lists(int64_t size, int32_t k, const float *current, float *distances, int32_t *seeds)
+{
+    for (int64_t p = 0; p < size; p++) {
+        for (int64_t i = p * k; i < (p + 1) * k; i++) {
+            distances[i] = current[p];
+            seeds[i] = -1;
+        }
+    }
+}
+
+/* Make empty places infinite. Returns 0 if a list that a finite bound promised to fill has an empty place. */
+static int close_lists(int64_t size, int32_t k, float *distances, const int32_t *seeds)
+{
+    for (int64_t p = 0; p < size; p++) {
+        if (seeds[p * k + k - 1] < 0) {
+            if (distances[p * k + k - 1] < INFINITY) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+static int32_t march_seeds(const rc_steps *steps, const rc_graph *graph, rc_queue *queue, rc_trail *trail,
+                           int64_t count, const int64_t *pixels, int32_t k, float *current, uint8_t *flags,
+                           float *distances, int32_t *seeds, const rc_control *control)
+{
+    const rc_control quiet = {control->cancel, NULL};
+    for (int64_t j = 0; j < count; j++) {
+        const int32_t p = rc_plane_position(graph, pixels[j]);
+        if (!(0.0f < current[p])) {
+            continue;
+        }
+        trail->used = 0;
+        rc_start(steps, queue, current, flags, p, 0.0f);
+        const int32_t code = steps->wrap ? rc_march(steps, queue, current, flags, trail, NULL, 1, &quiet)
+                                         : rc_march(steps, queue, current, flags, trail, NULL, 0, &quiet);
+        if (code != RC_OK) {
+            return code;
+        }
+        insert_trail(steps, trail, flags, k, (int32_t)j, distances, seeds, current);
+        rc_progress(control, 1);
+    }
+    return RC_OK;
+}
+
+int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, float *distances,
+                   int32_t *seeds, const rc_control *control)
+{
+    static const rc_control none = {NULL, NULL};
+    int32_t code = rc_check_graph(graph);
+    if (code == RC_OK) {
+        code = rc_check_pixels(graph, count, pixels);
+    }
+    if (code != RC_OK) {
+        return code;
+    }
+    if (!distances || !seeds) {
+        return RC_BAD_POINTER;
+    }
+    if (k < 1 || k > RC_MAX_NEAREST) {
+        return RC_BAD_VALUE;
+    }
+    const int64_t size = rc_plane_size(graph->height, graph->width);
+    control = control ? control : &none;
+    rc_steps steps;
+    rc_steps_init(&steps, graph);
+    rc_trail trail = {NULL, 0, 0};
+    rc_queue *queue = rc_queue_new();
+    float *current = malloc((size_t)size * sizeof *current);
+    uint8_t *flags = calloc((size_t)size, 1);
+    code = queue && current && flags ? RC_OK : RC_MEMORY;
+    if (code == RC_OK) {
+        /* The lists' own memory serves as scratch before they are begun. */
+        code = rc_bounds(&steps, graph, queue, count, pixels, k, current, flags, seeds, control);
+    }
+    for (int bounded = 1; code == RC_OK; bounded = 0) {
+        if (!bounded) {
+            for (int64_t i = 0; i < size; i++) {
+                current[i] = INFINITY;
+            }
+        }
+        clear_lists(size, k, current, distances, seeds);
+        code = march_seeds(&steps, graph, queue, &trail, count, pixels, k, current, flags, distances,
+                           seeds, control);
+        /* Rounding could in principle make a bound too low; then a list stays short, and all is done without. */
+        if (code != RC_OK || !bounded || close_lists(size, k, distances, seeds)) {
+            break;
+        }
+    }
+    free(trail.pixel);
+    free(current);
+    free(flags);
+    rc_queue_free(queue);
+    return code;
+}

@@ -1,0 +1,93 @@
+/* Geodesic fields, nearest seeds and the blending of equation 1 on a grid of pixels.
+ *
+ * Every function is re-entrant: it keeps no state between calls, and several threads may call it at once on the
+ * same graph as long as they write to different memory. All arithmetic is IEEE single or double precision without
+ * contraction or reordering, so that every platform gives the same bits.
+ *
+ * A "plane" is a float image with a rim of one pixel: (height + 2) rows of (width + 2) values, pixel (r, c) at
+ * (r + 1) * (width + 2) + c + 1, and RC_SLACK further values that are read and never used. The rim spares the inner
+ * loop every test for the image's border; rc_plane_size says how many floats a plane takes.
+ */
+#ifndef REFLCOLOR_KERNEL_H
+#define REFLCOLOR_KERNEL_H
+
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define RC_API __declspec(dllexport)
+#else
+#define RC_API __attribute__((visibility("default")))
+#endif
+
+#define RC_ABI_VERSION 1
+#define RC_SLACK 8
+#define RC_MAX_NEAREST 1024
+
+enum {
+    RC_OK = 0,
+    RC_CANCELLED = 1,
+    RC_MEMORY = 2,
+    RC_BAD_POINTER = -1, /* a pointer that must not be null is null */
+    RC_BAD_SIZE = -2,    /* a size is not positive, or too large for 32-bit pixel indices */
+    RC_BAD_VALUE = -3,   /* a value is negative, not a number, infinite or out of its range */
+    RC_BAD_SEED = -4     /* a seed lies outside the image or on a pixel that is no node of the graph */
+};
+
+/* The graph of a scan. `y` and `d` are planes filled by rc_graph_fill; y is NaN where a pixel is no node. */
+typedef struct {
+    int64_t height;
+    int64_t width;
+    int32_t neighbors; /* 4 or 8 */
+    int32_t wrap;      /* the left and the right edge are neighbours */
+    float beta;        /* weight of the squared range difference, equation 6 */
+    float step_cost;   /* constant cost of a straight step; a diagonal one pays sqrt(2) times as much */
+    const float *y;
+    const float *d;
+} rc_graph;
+
+/* Both members may be null. `cancel` is polled; any value but 0 makes the call return RC_CANCELLED soon.
+ * `progress` is added to, atomically: pixels for rc_field, rows for the blending, seeds for rc_nearest. */
+typedef struct {
+    const volatile int32_t *cancel;
+    int64_t *progress;
+} rc_control;
+
+RC_API int32_t rc_abi_version(void);
+
+/* Floats in one plane, or RC_BAD_SIZE. */
+RC_API int64_t rc_plane_size(int64_t height, int64_t width);
+
+/* Fill the planes y and d from images with row strides in elements. Finite values are required where valid != 0. */
+RC_API int32_t rc_graph_fill(int64_t height, int64_t width, int32_t wrap, const float *luminance,
+                             int64_t luminance_stride, const float *range, int64_t range_stride,
+                             const uint8_t *valid, int64_t valid_stride, float *y, float *d);
+
+/* Distance of every pixel to the nearest of `count` source pixels (row * width + column), each starting at
+ * start[i] (null: all at 0). `plane` receives the distances, infinite where nothing arrives; its rim is undefined. */
+RC_API int32_t rc_field(const rc_graph *graph, int64_t count, const int64_t *pixels, const float *start, float *plane,
+                        const rc_control *control);
+
+/* The k nearest of `count` seeds of every pixel, distances ascending, the lower seed first among equals.
+ * `distances` and `seeds` are k values per plane entry (rc_plane_size(...) * k each); unused places hold
+ * infinity and -1. */
+RC_API int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, float *distances,
+                          int32_t *seeds, const rc_control *control);
+
+/* Equation 1, one seed at a time, for a seed that lies `field` away (rows of field_stride floats). The sums are kept
+ * relative to the nearest seed so far: weight = sum (r / nearest)^-alpha, color0 and color1 the same with the seed's
+ * chrominance. Start: nearest = infinity, index = -1, the rest 0. Add seeds in the same order for the same bits. */
+RC_API int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t field_stride, float alpha,
+                            int32_t seed, float seed_color0, float seed_color1, float *nearest, int32_t *index,
+                            float *weight, float *color0, float *color1);
+
+/* Turn the sums into means, in place; a pixel without weight is left at 0. */
+RC_API int32_t rc_blend_finish(int64_t count, const float *weight, float *color0, float *color1);
+
+/* Equation 1 over the k labels of every pixel of one row range [row0, row1) of rc_nearest's result.
+ * `colors` holds two floats per seed. `bound` (may be null) receives the most that the seeds left out could change
+ * either chrominance by, given that `count` seeds exist. Outputs are height x width, contiguous. */
+RC_API int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t row1, int32_t k,
+                                const float *distances, const int32_t *seeds, int64_t count, const float *colors,
+                                float alpha, float *weight, float *color0, float *color1, float *bound);
+
+#endif

@@ -1,0 +1,211 @@
+"""Method 1 of the paper, holding what a scan has in common from one colorization to the next."""
+
+import os
+from collections import OrderedDict, deque
+from concurrent.futures import ThreadPoolExecutor, wait
+
+import numpy as np
+
+from . import colorspaces
+from .colorization import Colorization
+from .engines import engine_for
+from .errors import Cancelled
+from .graph import PixelGraph
+from .memory import require_memory
+from .normalization import normalize
+from .settings import Settings
+
+# The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
+_HALF_CONFIDENCE = 64.0
+# nearest="auto": exact up to this many pixels times seeds, about 2 s on two threads. A fixed number, not a measured
+# time: the same input must give the same result everywhere.
+AUTO_EXACT_PIXEL_SEEDS = 4e7
+# Otherwise the first of these for which 999 of 1,000 pixels lie within this many 8-bit levels of the exact result.
+AUTO_NEAREST = (8, 16, 32)
+AUTO_TOLERANCE_LEVELS = 4.0
+_POLL_S = 0.02
+_DEFAULT_MEMORY = 1 << 30
+
+
+class Colorizer:
+    """Colorizes one scan again and again; what did not change is not computed anew.
+
+    It holds the scan's graph, the geodesic fields of its seeds, and the sums of eq. 1. A seed that is added costs one
+    field; one that is moved, one field and a new sum; one that is removed or recolored, a new sum. The result has the
+    same bits as one computed at once.
+
+    Parameters
+    ----------
+    scan : Scan
+    settings : Settings, optional
+        The paper's by default.
+    memory : int
+        Bytes that fields may take; the least recently used ones are dropped and computed again when needed.
+    threads : int, optional
+        By default one per processor. The number changes no bit of a result.
+
+    Raises
+    ------
+    ReflcolorError
+        If the memory that is free will not do.
+    """
+
+    def __init__(self, scan, settings=None, *, memory=_DEFAULT_MEMORY, threads=None):
+        self.scan = scan
+        self.threads = threads or os.cpu_count() or 1
+        self._limit = memory
+        self._luminance, reflectance_limits = normalize(scan.reflectance, scan.valid)
+        self._range_image, range_limits = normalize(scan.range, scan.valid)
+        self._normalization = {"reflectance": reflectance_limits, "range": range_limits}
+        self.settings = None
+        self._use(settings or Settings())
+
+    @property
+    def held_bytes(self):
+        """Bytes that the fields take now."""
+        return sum(field.nbytes for field in self._fields.values())
+
+    def colorize(self, seeds, settings=None, *, progress=None, cancelled=None):
+        """Colorize the scan; parameters, result and errors are those of ``colorize``."""
+        progress = progress or (lambda fraction, text: None)
+        cancelled = cancelled or (lambda: False)
+        seeds, warnings = seeds.placed_on(self.scan)
+        self._use(settings or self.settings)
+        self._require_memory(len(seeds))
+        progress(0.0, "Preparing the scan")
+        pixels = np.ravel_multi_index((seeds.rows, seeds.cols), self.scan.shape)
+        chrominance = colorspaces.chrominance(seeds.rgb, self.settings.color_space).astype(np.float32)
+        mean, method = self._propagate(pixels, chrominance, progress, cancelled)
+        progress(0.95, "Writing the colors")
+        reached = np.isfinite(mean.least)
+        unreached = int(np.count_nonzero(self.scan.valid & ~reached))
+        if unreached:
+            warnings.append(f"{unreached} pixels are cut off from every seed and keep their gray; add seeds there")
+        rgb = colorspaces.merge(self._luminance, np.moveaxis(mean.chroma, 0, -1), self.settings.color_space)
+        rgb[~reached] = np.rint(self._luminance[~reached])[:, None]
+        progress(1.0, "Colorized")
+        return Colorization(
+            rgb=rgb,
+            confidence=np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0).astype(np.float32),
+            nearest_seed=mean.nearest_seed,
+            seeds=seeds,
+            warnings=tuple(warnings),
+            normalization=self._normalization,
+            method=method,
+        )
+
+    def _use(self, settings):
+        """Take over settings; what they make void is dropped."""
+        before, self.settings = self.settings, settings
+        if before is not None and (before.beta, before.neighbors) == (settings.beta, settings.neighbors):
+            return
+        self._engine = engine_for(
+            PixelGraph(
+                luminance=self._luminance,
+                range_image=self._range_image,
+                valid=self.scan.valid,
+                beta=settings.beta,
+                neighbors=settings.neighbors,
+                wrap=self.scan.full_turn,
+            )
+        )
+        self._fields = OrderedDict()
+        self._forget_sums()
+
+    def _forget_sums(self):
+        self._blend, self._blended = None, []
+
+    def _require_memory(self, seeds):
+        always, per_thread, per_nearest = self._engine.memory
+        nearest = self.settings.nearest
+        labels = max(AUTO_NEAREST) if nearest == "auto" and not self._is_small(seeds) else nearest
+        per_pixel = always + (
+            per_nearest * min(labels, seeds) if isinstance(labels, int) else per_thread * self.threads
+        )
+        rows, columns = self.scan.shape
+        require_memory(per_pixel * rows * columns, f"{self.scan.name}: colorizing {rows} rows x {columns} columns")
+
+    def _is_small(self, seeds):
+        return seeds * self.scan.valid.size <= AUTO_EXACT_PIXEL_SEEDS or seeds <= AUTO_NEAREST[0]
+
+    def _propagate(self, pixels, chrominance, progress, cancelled):
+        """Return the mean of eq. 1 and how it was come by."""
+        nearest = self.settings.nearest
+        method = {"engine": self._engine.name, "note": self._engine.note, "nearest": None}
+        if nearest is None or (nearest == "auto" and (self._engine.note or self._is_small(len(pixels)))):
+            return self._exact(pixels, chrominance, progress, cancelled), method
+        for k in AUTO_NEAREST if nearest == "auto" else (nearest,):
+            mean, bound = self._nearest(pixels, chrominance, min(k, len(pixels)), progress, cancelled)
+            levels = colorspaces.levels_per_unit(self.settings.color_space)
+            largest, percentile = self._bound_levels(bound, levels)
+            method |= {"nearest": k, "bound_levels": {"max": largest, "p99.9": percentile}}
+            if percentile <= AUTO_TOLERANCE_LEVELS:
+                break
+        return mean, method
+
+    def _bound_levels(self, bound, levels):
+        inside = bound[self.scan.valid]
+        return round(float(inside.max()) * levels, 3), round(float(np.percentile(inside, 99.9)) * levels, 3)
+
+    def _exact(self, pixels, chrominance, progress, cancelled):
+        """Eq. 1 over all seeds, in their order; fields that are not held are computed in threads, a few ahead."""
+        wanted = list(zip(pixels.tolist(), map(tuple, chrominance.tolist()), strict=True))
+        done = len(self._blended)
+        if self._blend is None or self._alpha != self.settings.alpha or self._blended != wanted[:done]:
+            self._forget_sums()
+            self._alpha, done = self.settings.alpha, 0
+            self._blend = self._engine.blend(self._alpha)
+        control = self._engine.control()
+        with ThreadPoolExecutor(self.threads, "reflcolor") as pool:
+            ahead = deque()
+            try:
+                for index in range(done, len(wanted)):
+                    while len(ahead) < self.threads and index + len(ahead) < len(wanted):
+                        ahead.append(self._field_later(pool, wanted[index + len(ahead)][0], control))
+                    field = _awaited(ahead.popleft(), control, lambda: None, cancelled)
+                    self._blend.add(field, wanted[index][1])
+                    self._blended.append(wanted[index])
+                    self._hold(wanted[index][0], field)
+                    progress(0.95 * (index + 1) / len(wanted), f"Seed {index + 1} of {len(wanted)}")
+            except BaseException:
+                control.cancel()
+                raise
+        return self._blend.mean()
+
+    def _field_later(self, pool, pixel, control):
+        field = self._fields.get(pixel)
+        return pool.submit(self._engine.field, pixel, control) if field is None else pool.submit(lambda: field)
+
+    def _hold(self, pixel, field):
+        """Keep a field, the newest last, as far as the memory goes."""
+        self._fields[pixel] = field
+        self._fields.move_to_end(pixel)
+        while self._fields and self.held_bytes > self._limit:
+            self._fields.popitem(last=False)
+
+    def _nearest(self, pixels, chrominance, k, progress, cancelled):
+        control = self._engine.control()
+        alpha = self.settings.alpha
+
+        def tell():
+            progress(0.95 * min(1, control.done / len(pixels)), f"{k} nearest of {len(pixels)} seeds")
+
+        with ThreadPoolExecutor(1, "reflcolor") as pool:
+            later = pool.submit(self._engine.nearest, pixels, chrominance, alpha, k, control)
+            try:
+                return _awaited(later, control, tell, cancelled)
+            except BaseException:
+                control.cancel()
+                raise
+
+
+def _awaited(later, control, tell, cancelled):
+    """The result of a future; the caller's own thread asks ``cancelled()`` and tells the progress meanwhile."""
+    while True:
+        if cancelled():
+            control.cancel()
+            wait([later])
+            raise Cancelled
+        if later in wait([later], _POLL_S).done:
+            return later.result()
+        tell()

@@ -1,0 +1,1 @@
+"""Method 2: seeds from photos, found by the program."""

@@ -1,0 +1,145 @@
+"""How a pixel of the scan falls into a photo: a camera for the scan's points, or a homography of the scan's grid.
+
+Both have the same face: ``project`` for many sites, ``projections`` of many candidates at once, ``moved`` to a candidate.
+A candidate is a row of unitless numbers, each of a size that moves the picture by about a fiftieth.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+# Beyond this radius (in focal lengths, squared) the distortion polynomial is not followed any more.
+_WIDEST_SQUARED = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """A pinhole camera with its principal point in the middle and one radial distortion.
+
+    Parameters
+    ----------
+    rotation : (3, 3) float64
+        Scanner frame to camera frame (x right, y down, z forward).
+    center : (3,) float64
+        Metres, scanner frame.
+    focal_px : float
+    distortion : float
+        A point at radius r (in focal lengths) is seen at r (1 + distortion r^2).
+    width, height : int
+        Of the photo.
+    """
+
+    rotation: np.ndarray
+    center: np.ndarray
+    focal_px: float
+    distortion: float
+    width: int
+    height: int
+
+    kind = "pose"
+    ROTATION = (0, 1, 2, 6)
+    """Which numbers of a candidate turn and zoom."""
+    POSE = (0, 1, 2, 3, 4, 5, 6)
+    ALL = (0, 1, 2, 3, 4, 5, 6, 7)
+    UNITS = np.array([0.02, 0.02, 0.02, 0.05, 0.05, 0.05, 0.05, 0.03])
+
+    def sites(self, scan_image):
+        """(h, w, 3): what `project` takes for the pixels of a `ScanImage`."""
+        return scan_image.points
+
+    def project(self, points):
+        """Return (..., 2) pixels from the photo's top left corner, NaN behind the camera, and (...) depth in metres."""
+        local = (points - self.center) @ self.rotation.T
+        depth = local[..., 2]
+        plane = local[..., :2] / np.where(depth > 1e-6, depth, np.nan)[..., None]
+        gain = 1 + self.distortion * np.minimum((plane**2).sum(axis=-1), _WIDEST_SQUARED)
+        return plane * (self.focal_px * gain)[..., None] + [self.width / 2, self.height / 2], depth
+
+    def projections(self, candidates, points, scale):
+        """Return (K, N, 2): where K candidates see N points; ``scale`` is the metres of a unit shift."""
+        change = self._change(candidates, scale)
+        rotation = _rotations(change[:, :3]) @ self.rotation
+        local = np.einsum("kij,knj->kni", rotation, points[None] - (self.center + change[:, 3:6])[:, None])
+        plane = local[..., :2] / np.where(local[..., 2] > 1e-3, local[..., 2], np.nan)[..., None]
+        bent = (self.distortion + change[:, 7])[:, None] * np.minimum((plane**2).sum(axis=-1), _WIDEST_SQUARED)
+        focal = self.focal_px * np.exp(change[:, 6])
+        return plane * (focal[:, None] * (1 + bent))[..., None] + [self.width / 2, self.height / 2]
+
+    def moved(self, candidate, scale):
+        """Return the camera of one candidate."""
+        change = self._change(candidate[None], scale)[0]
+        return Camera(
+            _rotations(change[None, :3])[0] @ self.rotation,
+            self.center + change[3:6],
+            self.focal_px * np.exp(change[6]),
+            self.distortion + change[7],
+            self.width,
+            self.height,
+        )
+
+    def _change(self, candidates, scale):
+        change = candidates * self.UNITS
+        change[:, 3:6] *= scale
+        return change
+
+
+@dataclass(frozen=True, eq=False)
+class GridHomography:
+    """A homography from the scan's grid (pixels from its top left corner) to the photo.
+
+    For a photo of something flat, for a photo that shows what the scanner's own camera saw, and for a view that was
+    turned on the spot where the grid is a perspective view itself.
+    """
+
+    matrix: np.ndarray
+    grid_shape: tuple[int, int]
+    width: int
+    height: int
+
+    kind = "homography"
+    ALL = tuple(range(8))
+
+    def sites(self, scan_image):
+        """(h, w, 2): what `project` takes for the pixels of a `ScanImage`."""
+        return scan_image.grid_xy
+
+    def project(self, grid_xy):
+        """Return (..., 2) pixels from the photo's top left corner, NaN beyond the horizon, and a depth of ones."""
+        mapped = np.concatenate([grid_xy, np.ones((*grid_xy.shape[:-1], 1))], axis=-1) @ self.matrix.T
+        weight = mapped[..., 2]
+        weight = np.where(weight * np.sign(self.matrix[2, 2] or 1) > 1e-9, weight, np.nan)
+        return mapped[..., :2] / weight[..., None], np.ones(weight.shape)
+
+    def projections(self, candidates, grid_xy, scale):
+        """Return (K, N, 2): where K candidates (shifts of the grid's corners) put N places of the grid."""
+        return np.stack([self.moved(candidate, scale).project(grid_xy)[0] for candidate in candidates])
+
+    def moved(self, candidate, scale):
+        """Return the homography whose images of the grid's corners are shifted by hundredths of the grid's size."""
+        import cv2
+
+        height, width = self.grid_shape
+        corners = np.array([[0, 0], [width, 0], [width, height], [0, height]], np.float32)
+        shifted = corners + candidate.reshape(4, 2).astype(np.float32) * (0.01 * max(height, width))
+        change = cv2.getPerspectiveTransform(corners, shifted)
+        return GridHomography(self.matrix @ change, self.grid_shape, self.width, self.height)
+
+
+def camera_axes(yaw_deg, pitch_deg, roll_deg):
+    """Return the (3, 3) rotation from the scanner frame (Z up) to a camera that looks along +Y turned right by the yaw,
+    up by the pitch, and rolled clockwise."""
+    yaw, pitch, roll = np.radians([yaw_deg, pitch_deg, roll_deg])
+    level = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
+    rolled = np.array([[np.cos(roll), -np.sin(roll), 0], [np.sin(roll), np.cos(roll), 0], [0, 0, 1]])
+    pitched = np.array([[1, 0, 0], [0, np.cos(pitch), -np.sin(pitch)], [0, np.sin(pitch), np.cos(pitch)]])
+    turned = np.array([[np.cos(yaw), np.sin(yaw), 0], [-np.sin(yaw), np.cos(yaw), 0], [0, 0, 1]])
+    return (turned @ level @ pitched @ rolled).T
+
+
+def _rotations(vectors):
+    """(K, 3, 3) rotation matrices of (K, 3) rotation vectors (Rodrigues' formula)."""
+    angle = np.linalg.norm(vectors, axis=1)[:, None, None]
+    x, y, z = (vectors / np.maximum(angle[:, 0], 1e-12)).T
+    zero = np.zeros_like(x)
+    cross = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=1).reshape(-1, 3, 3)
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * (cross @ cross)

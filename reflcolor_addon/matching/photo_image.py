@@ -1,0 +1,110 @@
+"""A photo at several sizes, seen through a model as the scan's pixels see it."""
+
+from functools import cached_property
+
+import numpy as np
+
+from .edges import edge_features, filled
+
+_LARGEST_SIDE = 2048
+
+
+class PhotoImage:
+    """A photo for matching.
+
+    Parameters
+    ----------
+    name : str
+    rgb : (H, W, 3) uint8
+        sRGB.
+    """
+
+    def __init__(self, name, rgb):
+        self.name = name
+        self.rgb = rgb
+        self.height, self.width = rgb.shape[:2]
+
+    @cached_property
+    def levels(self):
+        """Gray images, float32, each half the size of the one before, and how many pixels of the photo theirs are.
+
+        The first is the photo itself, or where it is larger than 2048 pixels what is left of it at that size: no scan
+        has more detail, and time goes with the pixels.
+        """
+        import cv2
+
+        gray = cv2.cvtColor(self.rgb, cv2.COLOR_RGB2GRAY)
+        scale = max(1.0, max(gray.shape) / _LARGEST_SIDE)
+        if scale > 1:
+            size = (max(1, round(self.width / scale)), max(1, round(self.height / scale)))
+            gray = cv2.resize(gray, size, interpolation=cv2.INTER_AREA)
+        levels = [(gray.astype(np.float32), scale)]
+        while min(levels[-1][0].shape) >= 32:
+            levels.append((cv2.pyrDown(levels[-1][0]), levels[-1][1] * 2))
+        return levels
+
+    def level(self, pixels):
+        """Return the gray image, and its scale, whose pixels are about as large as ``pixels`` pixels of the photo."""
+        return min(self.levels, key=lambda level: abs(np.log(level[1] / max(pixels, 1e-3))))
+
+    def sampled(self, xy, seen, pixels):
+        """Return the (h, w) float32 gray at places of the photo, and (h, w) bool where that is inside it.
+
+        Parameters
+        ----------
+        xy : (h, w, 2) float64
+            Pixels from the photo's top left corner.
+        seen : (h, w) bool
+        pixels : float
+            How many pixels of the photo lie between neighboring places.
+        """
+        import cv2
+
+        image, scale = self.level(pixels)
+        x, y = (np.where(seen, xy[..., axis] / scale - 0.5, -2).astype(np.float32) for axis in (0, 1))
+        seen = seen & (x >= 0) & (y >= 0) & (x <= image.shape[1] - 1) & (y <= image.shape[0] - 1)
+        return cv2.remap(image, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), seen
+
+    def features(self, xy, seen, pixels):
+        """Return the (h, w, 5) edge features of the photo as `sampled`, and where it is seen."""
+        image, seen = self.sampled(xy, seen, pixels)
+        return edge_features(filled(image, seen), seen), seen
+
+
+def visible(model, xy, depth, sites_valid, tolerance=0.04):
+    """Return (h, w) bool: which pixels of the scan the photo really sees, by a depth buffer of the scan's own points.
+
+    Parameters
+    ----------
+    model : Camera or GridHomography
+    xy, depth : (h, w, 2), (h, w)
+        As ``model.project`` gave them for the pixels.
+    sites_valid : (h, w) bool
+    tolerance : float
+        What lies farther than the nearest in the same place by more than this share is hidden.
+    """
+    import cv2
+
+    inside = sites_valid & np.isfinite(xy).all(axis=-1) & (depth > 0)
+    inside &= (xy >= 0).all(axis=-1) & (np.nan_to_num(xy) <= [model.width, model.height]).all(axis=-1)
+    if model.kind == "homography" or not inside.any():
+        return inside
+    cell = 2.0 * spacing(xy, inside)
+    columns, rows = int(model.width / cell) + 2, int(model.height / cell) + 2
+    place = (xy[inside] / cell).astype(int)
+    nearest = np.full((rows, columns), np.inf)
+    np.minimum.at(nearest, (place[:, 1], place[:, 0]), depth[inside])
+    # A cell that no point fell into would let one see through a surface that is seen at a shallow angle.
+    eroded = cv2.erode(nearest, np.ones((3, 3)), borderType=cv2.BORDER_REPLICATE)
+    nearest = np.where(np.isfinite(nearest), nearest, eroded)
+    seen = inside.copy()
+    seen[inside] = depth[inside] <= nearest[place[:, 1], place[:, 0]] * (1 + tolerance)
+    return seen
+
+
+def spacing(xy, seen):
+    """Return the median distance in the photo between horizontal neighbors of the scan, in pixels; 1 if there are none."""
+    both = seen[:, 1:] & seen[:, :-1]
+    if not both.any():
+        return 1.0
+    return float(max(np.median(np.linalg.norm((xy[:, 1:] - xy[:, :-1])[both], axis=-1)), 1e-3))

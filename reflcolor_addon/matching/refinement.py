@@ -1,0 +1,234 @@
+"""Fitting a model to a photo by tiles of the scan, each sought in the photo near where the model puts it.
+
+A tile alone is often wrong, so no tile decides where it is: it gives a surface of scores over all shifts, and the model
+whose shifts collect the highest sum wins. That is robust where nine of ten tiles have several peaks, and cheap: once the
+surfaces are there, a candidate costs a look-up per tile.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .photo_image import spacing, visible
+
+_LEAST_TILES = 8
+_LEAST_COVER = 0.5
+_OUTSIDE = -0.5
+_CANDIDATES = 300
+_GENERATIONS = 14
+
+
+@dataclass(frozen=True, eq=False)
+class Tiles:
+    """Square tiles of a `ScanImage`, half overlapping, where enough is valid.
+
+    ``corners`` (N, 2) row and column of each tile's first pixel; ``middles`` (N, 2) row and column of the valid pixel
+    next to its middle; ``along`` (N, 2, D): what one pixel to the right, and down, adds to the site at the middle.
+    """
+
+    size: int
+    corners: np.ndarray
+    middles: np.ndarray
+
+    @classmethod
+    def of(cls, scan_image, size):
+        """Lay tiles of ``size`` pixels."""
+        height, width = scan_image.shape
+        step = size // 2
+        corners, middles = [], []
+        y, x = np.mgrid[:size, :size] - (size - 1) / 2
+        off_middle = y * y + x * x
+        for row in range(0, height - size + 1, step):
+            for col in range(0, width - size + 1, step):
+                valid = scan_image.valid[row : row + size, col : col + size]
+                if valid.mean() >= 0.4:
+                    nearest = np.argmin(np.where(valid, off_middle, np.inf))
+                    corners.append((row, col))
+                    middles.append((row + nearest // size, col + nearest % size))
+        return cls(size, np.array(corners).reshape(-1, 2), np.array(middles).reshape(-1, 2))
+
+
+@dataclass(frozen=True, eq=False)
+class Surfaces:
+    """What the tiles say about a model.
+
+    scores : (N, 2 r + 1, 2 r + 1) float32
+        In deviations from each tile's own mean, over shifts in pixels of the scan's image (row, column).
+    sites : (N, D)
+        Where the tiles are, as the model takes it.
+    places : (N, 2)
+        Where the model puts them in the photo.
+    inverse : (N, 2, 2)
+        From pixels of the photo to shifts in pixels of the scan's image.
+    middles : (N, 2)
+        Rows and columns of the tiles in the scan's image.
+    scale : float
+        Metres of a unit shift of a camera: the median distance of the tiles.
+    """
+
+    scores: np.ndarray
+    sites: np.ndarray
+    places: np.ndarray
+    inverse: np.ndarray
+    middles: np.ndarray
+    scale: float
+
+    @property
+    def radius(self):
+        return self.scores.shape[1] // 2
+
+
+def surfaces(scan_image, tiles, photo, model, radius):
+    """Return the `Surfaces` of a model, or None where the photo shows too little of the scan."""
+    sites = model.sites(scan_image)
+    xy, depth = model.project(sites)
+    finite = scan_image.valid & np.isfinite(xy).all(axis=-1)
+    seen = visible(model, xy, depth, finite)
+    if np.count_nonzero(seen) < 64 or len(tiles.corners) < _LEAST_TILES:
+        return None
+    features, seen = photo.features(xy, seen, spacing(xy, seen))
+    shares = np.array([seen[r : r + tiles.size, c : c + tiles.size].mean() for r, c in tiles.corners])
+    chosen = np.flatnonzero(shares >= _LEAST_COVER)
+    if len(chosen) < _LEAST_TILES:
+        return None
+    middles = tiles.middles[chosen]
+    at = sites[middles[:, 0], middles[:, 1]]
+    places, inverse = _local_maps(scan_image, model, sites, middles, at)
+    scores, lively = _correlations(scan_image.features, features, tiles.corners[chosen], tiles.size, radius)
+    good = lively & np.isfinite(places).all(axis=1) & np.isfinite(inverse).all(axis=(1, 2))
+    if np.count_nonzero(good) < _LEAST_TILES:
+        return None
+    ranges = scan_image.range[middles[:, 0], middles[:, 1]]
+    return Surfaces(scores[good], at[good], places[good], inverse[good], middles[good], float(np.median(ranges[good])))
+
+
+def fitted(surfaces, model, free, *, blur, spread, penalty, rng):
+    """Return the model near ``model`` that collects the highest mean score, and that score.
+
+    Parameters
+    ----------
+    surfaces : Surfaces
+    model : Camera or GridHomography
+    free : sequence of int
+        Which of the model's numbers may change.
+    blur : float
+        Pixels by which the surfaces are smoothed, so that the way to the top is found.
+    spread : float
+        How far around candidates are sought, in the model's units.
+    penalty : float
+        Per squared unit, so that what the photo does not tell stays as it is.
+    rng : numpy.random.Generator
+    """
+    import cv2
+
+    free = list(free)
+    scores = np.stack([cv2.GaussianBlur(s, (0, 0), blur, borderType=cv2.BORDER_REPLICATE) for s in surfaces.scores])
+    count = 8 if model.kind == "homography" else len(model.UNITS)
+
+    def value(candidates):
+        shifted = model.projections(candidates, surfaces.sites, surfaces.scale) - surfaces.places
+        shift = np.einsum("nij,knj->kni", surfaces.inverse, np.nan_to_num(shifted, nan=1e6))
+        return _looked_up(scores, shift).mean(axis=1) - penalty * (candidates**2).sum(axis=1)
+
+    parents = np.zeros((1, count))
+    spread_now = spread
+    for generation in range(_GENERATIONS):
+        children = np.repeat(parents, -(-(_CANDIDATES if generation == 0 else 120) // len(parents)), axis=0)
+        children[:, free] += rng.standard_normal((len(children), len(free))) * spread_now
+        candidates = np.vstack([parents, children])
+        values = value(candidates)
+        best = np.argsort(-values, kind="stable")[: 6 if generation < 6 else 3]
+        parents = candidates[best]
+        spread_now *= 0.7
+    return model.moved(parents[0], surfaces.scale), float(values[best[0]])
+
+
+def _looked_up(scores, shift):
+    """(K, N): the scores at (K, N, 2) shifts (right, down), bilinearly."""
+    radius = scores.shape[1] // 2
+    place = shift + radius
+    inside = ((place >= 0) & (place <= 2 * radius)).all(axis=-1)
+    place = np.clip(place, 0, 2 * radius - 1e-6)
+    col, row = np.moveaxis(place.astype(int), -1, 0)
+    right, down = np.moveaxis(place - place.astype(int), -1, 0)
+    tile = np.arange(len(scores))[None]
+    top = scores[tile, row, col] * (1 - right) + scores[tile, row, col + 1] * right
+    bottom = scores[tile, row + 1, col] * (1 - right) + scores[tile, row + 1, col + 1] * right
+    return np.where(inside, top * (1 - down) + bottom * down, _OUTSIDE)
+
+
+def _correlations(own, other, corners, size, radius):
+    """Normalized cross-correlation of every tile of ``own`` with ``other`` over all shifts, as deviations; and which
+    tiles have anything to say."""
+    import cv2
+
+    padded = np.pad(other, ((radius, radius), (radius, radius), (0, 0)))
+    energy = cv2.boxFilter(
+        (padded**2).sum(axis=-1), cv2.CV_32F, (size, size), normalize=False, anchor=(0, 0), borderType=cv2.BORDER_CONSTANT
+    )
+    usual = np.median(energy[energy > 0]) if (energy > 0).any() else 1.0
+    window = 2 * radius + 1
+    # matchTemplate takes one or three channels: two passes of three, the last one empty.
+    empty = np.zeros((*padded.shape[:2], 1), np.float32)
+    padded = np.ascontiguousarray(np.concatenate([padded, empty], axis=-1).reshape(*padded.shape[:2], 2, 3).transpose(2, 0, 1, 3))
+    own = np.concatenate([own, np.zeros((*own.shape[:2], 1), np.float32)], axis=-1)
+    own = np.ascontiguousarray(own.reshape(*own.shape[:2], 2, 3).transpose(2, 0, 1, 3))
+    scores = np.zeros((len(corners), window, window), np.float32)
+    lively = np.zeros(len(corners), bool)
+    for index, (row, col) in enumerate(corners):
+        tile = own[:, row : row + size, col : col + size]
+        strength = float((tile**2).sum())
+        if strength < 1e-3:
+            continue
+        product = sum(
+            cv2.matchTemplate(padded[k, row : row + size + 2 * radius, col : col + size + 2 * radius], tile[k], cv2.TM_CCORR)
+            for k in (0, 1)
+        )
+        around = energy[row : row + window, col : col + window]
+        score = product / np.sqrt(np.maximum(around, 0.25 * usual) * strength)
+        deviation = score.std()
+        lively[index] = deviation > 1e-4
+        scores[index] = (score - score.mean()) / (deviation + 1e-3)
+    return scores, lively
+
+
+def _local_maps(scan_image, model, sites, middles, at):
+    """Where the tiles' middles fall, and what a shift in the photo is in pixels of the scan's image.
+
+    For a camera the neighboring pixel is taken at the same distance: across a jump edge the photo does not follow.
+    """
+    steps = np.empty((len(middles), 2, at.shape[1]))
+    source = scan_image.directions if model.kind == "pose" else sites
+    valid = scan_image.valid if model.kind == "pose" else np.ones(scan_image.shape, bool)
+    for axis in (0, 1):
+        steps[:, axis] = _steps(source, valid, middles, axis)
+    if model.kind == "pose":
+        steps *= scan_image.range[middles[:, 0], middles[:, 1]][:, None, None]
+    places, _ = model.project(at)
+    jacobian = np.stack([model.project(at + steps[:, axis])[0] - places for axis in (0, 1)], axis=-1)
+    determinant = np.abs(np.linalg.det(np.nan_to_num(jacobian)))
+    usable = (determinant > 1e-9) & np.isfinite(jacobian).all(axis=(1, 2))
+    inverse = np.full(jacobian.shape, np.nan)
+    inverse[usable] = np.linalg.inv(jacobian[usable])
+    return places, inverse
+
+
+def _steps(values, valid, middles, axis, reach=4):
+    """What one pixel to the right (axis 0) or down (axis 1) adds to ``values`` around each middle."""
+    height, width = valid.shape
+    total = np.zeros((len(middles), values.shape[-1]))
+    count = np.zeros(len(middles))
+    rows, cols = middles.T
+    for first in range(-reach, 1):
+        second = first + reach
+        r0, c0 = (rows, cols + first) if axis == 0 else (rows + first, cols)
+        r1, c1 = (rows, cols + second) if axis == 0 else (rows + second, cols)
+        inside = (r0 >= 0) & (c0 >= 0) & (r1 < height) & (c1 < width)
+        r0, c0, r1, c1 = (np.where(inside, index, 0) for index in (r0, c0, r1, c1))
+        usable = inside & valid[r0, c0] & valid[r1, c1]
+        total += np.where(usable[:, None], values[r1, c1] - values[r0, c0], 0) / reach
+        count += usable
+    steps = total / np.maximum(count, 1)[:, None]
+    if (count > 0).any():
+        steps[count == 0] = np.median(steps[count > 0], axis=0)
+    return steps

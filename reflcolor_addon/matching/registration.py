@@ -1,0 +1,173 @@
+"""Finding the model of one photo: candidates from features and from the search, refined, and judged."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import features
+from .refinement import Tiles, fitted, surfaces
+from .scan_image import TONES, ScanImage, pixel_steps, toned
+from .search import FOCALS, SphereMap, map_step, sharpened, viewpoints
+from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, judged
+
+# Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
+_COARSE, _MIDDLE, _FINE = (1.0, 24), (0.625, 32), (0.42, TILE)
+_CONVINCING = 25.0
+_GUESSES = 6
+_PENALTY = 0.004
+
+
+@dataclass(frozen=True, eq=False)
+class Registration:
+    """A photo's model, the evidence for it, and where it came from."""
+
+    model: object
+    evidence: Evidence
+    found_by: str
+
+    @property
+    def accepted(self):
+        """Whether the evidence is enough."""
+        return self.model is not None and self.evidence.accepted
+
+
+class ScanViews:
+    """Everything of a scan that registering any photo needs, made when first asked for."""
+
+    def __init__(self, scan):
+        self.scan = scan
+        self.step_deg = map_step(scan)
+        self._made = {}
+
+    def tone(self, tone):
+        """The toned reflectance, see `scan_image.toned`."""
+        return self._once(("tone", tone), lambda: toned(self.scan, tone))
+
+    def image(self, tone, share):
+        """The `ScanImage` whose pixels are ``share`` of the search's."""
+        step = self.step_deg * share
+        return self._once(("image", tone, share), lambda: ScanImage(self.scan, self.tone(tone), step))
+
+    def tiles(self, tone, share, size):
+        """Tiles on that image."""
+        return self._once(("tiles", share, size), lambda: Tiles.of(self.image(tone, share), size))
+
+    def sphere(self, tone, center):
+        """The `SphereMap` from a place."""
+        make = lambda: SphereMap(self.scan, self.tone(tone), np.array(center), self.step_deg)  # noqa: E731
+        return self._once(("sphere", tone, center), make)
+
+    def _once(self, key, make):
+        if key not in self._made:
+            self._made[key] = make()
+        return self._made[key]
+
+
+def register(views, photo, *, step=lambda text: None):
+    """Find the model of a photo.
+
+    Parameters
+    ----------
+    views : ScanViews
+    photo : PhotoImage
+    step : callable
+        Called with a text before each stage; may raise to end the work.
+
+    Returns
+    -------
+    Registration
+        The best there is, accepted or not.
+    """
+    best = Registration(None, NO_EVIDENCE, "nothing")
+    for attempt in (_by_features, _from_scanner, _from_aside):
+        for tone in TONES:
+            step(f"{photo.name}: {attempt.__doc__.splitlines()[0].lower()}")
+            found = attempt(views, photo, tone, step)
+            if found.evidence.strength > best.evidence.strength:
+                best = found
+            if best.accepted and best.evidence.strength >= _CONVINCING:
+                return best
+        if best.accepted and attempt is not _by_features:
+            return best
+    return best
+
+
+def refined(views, photo, model, tone, levels, *, free, rng):
+    """Return a model fitted level by level, and its `Evidence` on the last one."""
+    for share, size, radius, blur, spread in levels:
+        found = surfaces(views.image(tone, share), views.tiles(tone, share, size), photo, model, radius)
+        if found is None:
+            return model, NO_EVIDENCE
+        model, _ = fitted(found, model, free, blur=blur, spread=spread, penalty=_PENALTY, rng=rng)
+    found = surfaces(views.image(tone, share), views.tiles(tone, share, size), photo, model, RADIUS)
+    return model, NO_EVIDENCE if found is None else judged(found)
+
+
+def finely(views, photo, model, tone, rng):
+    """Return a camera or homography that is nearly right, fitted with all it has, and its `Evidence`."""
+    if model.kind == "homography":
+        return refined(views, photo, model, tone, [(*_FINE, 6, 0.5, 0.4)], free=model.ALL, rng=rng)
+    model, _ = refined(views, photo, model, tone, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)], free=model.POSE, rng=rng)
+    return refined(views, photo, model, tone, [(*_FINE, 6, 0.5, 0.2)], free=model.ALL, rng=rng)
+
+
+def _by_features(views, photo, tone, step):
+    """Matching features"""
+    rng = np.random.default_rng(0)
+    best = Registration(None, NO_EVIDENCE, "features")
+    scan = views.scan
+    images = [views.tone(tone)]
+    vertical, horizontal = pixel_steps(scan)
+    if not 0.8 < vertical / horizontal < 1.25:
+        images.append(views.image(tone, 0.0).reflectance)
+
+    def candidates():
+        yield features.straight(scan.shape, photo)
+        for image in images:
+            yield from features.homographies(image, scan.shape, photo)
+
+    for model in candidates():
+        step(f"{photo.name}: matching features")
+        model, proof = finely(views, photo, model, tone, rng)
+        if proof.strength > best.evidence.strength:
+            best = Registration(model, proof, "features")
+        if best.accepted and proof.strength >= _CONVINCING:
+            break
+    return best
+
+
+def _from_scanner(views, photo, tone, step):
+    """Searching directions"""
+    return _searched(views, photo, tone, [(0.0, 0.0, 0.0)], (-18.0, 0.0, 18.0), step)
+
+
+def _from_aside(views, photo, tone, step):
+    """Searching viewpoints"""
+    return _searched(views, photo, tone, viewpoints(views.scan), (0.0,), step)
+
+
+def _searched(views, photo, tone, centers, pitches, step):
+    rng = np.random.default_rng(0)
+    maps, guesses = {}, []
+    for center in centers:
+        step(f"{photo.name}: searching directions")
+        sphere = views.sphere(tone, center)
+        maps[sphere.center] = sphere
+        guesses += sphere.guesses(photo, FOCALS, pitches, (0.0,))
+    guesses.sort(key=lambda guess: -guess.score)
+    guesses = sharpened(maps, photo, guesses, 5)[:_GUESSES]
+    coarse = []
+    for guess in guesses:
+        step(f"{photo.name}: trying directions")
+        model = guess.camera(photo)
+        free = model.ROTATION if guess.center == (0.0, 0.0, 0.0) else model.POSE
+        levels = [(*_COARSE, 10, 1.5, 1.2), (*_MIDDLE, 10, 1.0, 0.6)]
+        coarse.append(refined(views, photo, model, tone, levels, free=free, rng=rng))
+    coarse.sort(key=lambda found: -found[1].strength)
+    best = Registration(None, NO_EVIDENCE, "search")
+    for model, _ in coarse[:2]:
+        step(f"{photo.name}: refining")
+        model, proof = finely(views, photo, model, tone, rng)
+        if proof.strength > best.evidence.strength:
+            best = Registration(model, proof, "search")
+    return best

@@ -1,0 +1,110 @@
+"""The scan as an image of square pixels: what features and tiles are computed on."""
+
+from functools import cached_property
+
+import numpy as np
+
+from ..normalization import normalize
+from .edges import scan_features
+
+TONES = ("ranks", "percentiles")
+RANGE_WEIGHT = 0.5
+
+
+def toned(scan, tone):
+    """Return the reflectance as an (H, W) float32 image of 0..255.
+
+    Parameters
+    ----------
+    scan : Scan
+    tone : {"ranks", "percentiles"}
+        "ranks": every gray value occurs equally often, so that neither the unit (linear, logarithmic) nor a few
+        bright things matter; "percentiles": as the colorization has it, which keeps noise in flat parts low.
+    """
+    if tone == "percentiles":
+        return normalize(scan.reflectance, scan.valid)[0]
+    values, inverse, counts = np.unique(scan.reflectance[scan.valid], return_inverse=True, return_counts=True)
+    image = np.zeros(scan.shape, np.float32)
+    if values.size > 1:
+        rank = np.cumsum(counts) - (counts + 1) / 2
+        image[scan.valid] = ((rank - rank[0]) * (255 / (rank[-1] - rank[0])))[inverse]
+    return image
+
+
+def pixel_steps(scan):
+    """Return the (vertical, horizontal) step in degrees, made up where the points do not tell."""
+    vertical, horizontal = (step if np.isfinite(step) and step > 0 else None for step in scan.step_deg)
+    known = vertical or horizontal or 0.1
+    vertical, horizontal = vertical or known, horizontal or known
+    # A ratio beyond any scanner comes from points that are no panorama: take the pixels as square.
+    if not 1 / 20 < vertical / horizontal < 20:
+        return known, known
+    return vertical, horizontal
+
+
+class ScanImage:
+    """A scan resampled to square pixels of ``step_deg``.
+
+    Parameters
+    ----------
+    scan : Scan
+    tone_image : (H, W) float32
+        The reflectance, see `toned`.
+    step_deg : float
+        Size of a pixel; never finer than the grid.
+    range_weight : float
+        See `edges.scan_features`.
+
+    Attributes
+    ----------
+    shape : (h, w)
+    rows, cols : (h,) and (w,) int
+        Row and column of the scan's grid that a pixel shows.
+    reflectance : (h, w) float32
+    points : (h, w, 3) float64
+    range : (h, w) float64
+    valid : (h, w) bool
+    grid_xy : (h, w, 2) float64
+        Position in the scan's grid, in its pixels from the top left corner.
+    features : (h, w, 5) float32
+    """
+
+    def __init__(self, scan, tone_image, step_deg, range_weight=RANGE_WEIGHT):
+        height, width = scan.shape
+        vertical, horizontal = pixel_steps(scan)
+        self.step_deg = max(step_deg, min(vertical, horizontal))
+        h = max(1, round(height * vertical / self.step_deg))
+        w = max(1, round(width * horizontal / self.step_deg))
+        self.shape = (h, w)
+        self.rows = np.minimum(((np.arange(h) + 0.5) * height / h).astype(int), height - 1)
+        self.cols = np.minimum(((np.arange(w) + 0.5) * width / w).astype(int), width - 1)
+        chosen = np.ix_(self.rows, self.cols)
+        self.valid = scan.valid[chosen]
+        self.points = scan.points[chosen]
+        self.range = scan.range[chosen]
+        weight = _resampled(scan.valid.astype(np.float32), h, w)
+        value = _resampled(np.where(scan.valid, tone_image, 0).astype(np.float32), h, w)
+        self.reflectance = np.where(weight > 0.02, value / np.maximum(weight, 0.02), 0).astype(np.float32)
+        x, y = np.meshgrid((np.arange(w) + 0.5) * width / w, (np.arange(h) + 0.5) * height / h)
+        self.grid_xy = np.stack([x, y], axis=-1)
+        self._range_weight = range_weight
+
+    @cached_property
+    def features(self):
+        return scan_features(self.reflectance, self.range, self.valid, range_weight=self._range_weight)
+
+    @cached_property
+    def directions(self):
+        """(h, w, 3) float64: unit vectors from the scanner; zero where not valid."""
+        return self.points / np.maximum(self.range, 1e-9)[..., None]
+
+
+def _resampled(image, height, width):
+    import cv2
+
+    # Averaging where it gets coarser, per axis; interpolating where it gets finer.
+    if height < image.shape[0]:
+        image = cv2.resize(image, (image.shape[1], height), interpolation=cv2.INTER_AREA)
+    if width < image.shape[1]:
+        image = cv2.resize(image, (width, image.shape[0]), interpolation=cv2.INTER_AREA)
+    return cv2.resize(image, (width, height), interpolation=cv2.INTER_LINEAR)

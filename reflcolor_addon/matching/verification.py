@@ -1,0 +1,88 @@
+"""A test that a wrong model fails: do the tiles of the scan, each sought by itself, lie where the model puts them?
+
+Under a wrong model a tile's best place is anywhere in its window, so that few lie in the middle by chance. The share of
+tiles in the middle, in deviations of what chance gives, is the evidence. Its threshold is set over all unrelated pairs of
+the real scans (``python -m benchmarks.matching --unrelated``); fitting the model to the same tiles is in that, too.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .refinement import Tiles, surfaces
+
+RADIUS = 8
+"""Half the window that a tile is sought in, in pixels."""
+
+TILE = 40
+_NEAR = 1.5
+_CHANCE = 0.06
+ACCEPTED_EVIDENCE = 6.0
+ACCEPTED_MEAN = 0.85
+_ACCEPTED_TILES = 8
+# The tiles in place must spread over the scan as far as a third of how all tiles do.
+_ACCEPTED_SPREAD = 0.33
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What speaks for a model.
+
+    deviations : float
+        How far the number of tiles in place exceeds chance, in standard deviations.
+    in_place, tiles : int
+    mean : float
+        Mean score of all tiles where the model puts them, in deviations of the tiles' own surfaces.
+    spread : float
+        How far the tiles in place spread, as a share of how far all tiles do, in the weaker direction.
+    """
+
+    deviations: float
+    in_place: int
+    tiles: int
+    mean: float
+    spread: float
+
+    @property
+    def accepted(self):
+        """Whether the model is right."""
+        return (
+            self.deviations >= ACCEPTED_EVIDENCE
+            and self.mean >= ACCEPTED_MEAN
+            and self.in_place >= _ACCEPTED_TILES
+            and self.spread >= _ACCEPTED_SPREAD
+        )
+
+    @property
+    def strength(self):
+        """One number to compare models by."""
+        return self.deviations * max(self.mean, 0.0)
+
+    def __str__(self):
+        return f"{self.in_place} of {self.tiles} tiles in place"
+
+
+NO_EVIDENCE = Evidence(0.0, 0, 0, 0.0, 0.0)
+
+
+def evidence(scan_image, photo, model, size=TILE):
+    """Return the `Evidence` for a model on a `ScanImage`."""
+    found = surfaces(scan_image, Tiles.of(scan_image, size), photo, model, RADIUS)
+    return NO_EVIDENCE if found is None else judged(found)
+
+
+def judged(found):
+    """Return the `Evidence` in `Surfaces` of radius `RADIUS`."""
+    radius = found.radius
+    count = len(found.scores)
+    best = found.scores.reshape(count, -1).argmax(axis=1)
+    row, col = np.divmod(best, 2 * radius + 1)
+    near = np.hypot(row - radius, col - radius) <= _NEAR
+    in_place = int(near.sum())
+    deviations = (in_place - _CHANCE * count) / np.sqrt(_CHANCE * (1 - _CHANCE) * count)
+    mean = float(found.scores[:, radius, radius].mean())
+    spread = 0.0
+    if in_place >= 3:
+        axes = np.linalg.svd(found.middles - found.middles.mean(axis=0), full_matrices=False)[2]
+        spread = float(min((found.middles[near] @ axes.T).std(axis=0) / ((found.middles @ axes.T).std(axis=0) + 1e-9)))
+    return Evidence(float(deviations), in_place, count, mean, spread)

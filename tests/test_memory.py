@@ -1,0 +1,34 @@
+"""Work that cannot fit into memory is refused in one line before it starts."""
+
+import pytest
+
+from reflcolor_addon import memory
+from reflcolor_addon.errors import ReflcolorError, ScanError
+
+
+def test_what_fits_passes():
+    memory.require_memory(1, "a pixel")
+
+
+def test_what_does_not_fit_is_refused_with_both_numbers(monkeypatch):
+    monkeypatch.setattr(memory, "available_bytes", lambda: 3 * 2**30)
+    with pytest.raises(ScanError, match=r"^a\.ptx needs about 5 GB of memory, and 3 GB are free$"):
+        memory.require_memory(5 * 2**30, "a.ptx", error=ScanError)
+
+
+def test_terabytes_are_refused_on_every_machine():
+    if memory.available_bytes() is not None:
+        with pytest.raises(ReflcolorError):
+            memory.require_memory(2**60, "a.ptx")
+
+
+def test_nothing_is_refused_where_the_platform_does_not_tell(monkeypatch):
+    monkeypatch.setattr(memory, "available_bytes", lambda: None)
+    memory.require_memory(2**60, "a.ptx")
+
+
+def test_a_container_with_less_than_its_machine_decides(monkeypatch):
+    monkeypatch.setattr(memory, "_free_of_the_machine", lambda: 1000)
+    monkeypatch.setattr(memory, "_free_of_the_container", lambda: 10)
+    monkeypatch.setattr(memory.sys, "platform", "linux")
+    assert memory.available_bytes() == 10
