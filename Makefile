@@ -11,7 +11,8 @@
 
 VENV ?= .venv
 PYTHON ?=
-VERSION ?=
+# Set by make test in CI only: the one Python version to take.
+FOR_PYTHON ?=
 RUN = $(VENV)/bin/python
 
 .PHONY: help setup kernel build dist dist-all demo lint format test test-one test-all lock clean distclean
@@ -20,7 +21,7 @@ help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
 
 setup:
-	@PYTHON="$(PYTHON)" tools/setup.sh $(VENV) $(VERSION)
+	@PYTHON="$(PYTHON)" tools/setup.sh $(VENV) $(FOR_PYTHON)
 
 # The wheel of the kernel goes into the environment, too, where the tests without a Blender find it.
 kernel: setup

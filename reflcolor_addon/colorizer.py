@@ -19,7 +19,7 @@ from .settings import Settings
 _HALF_CONFIDENCE = 64.0
 # nearest="auto": exact up to this many pixels times seeds, about 2 s on two threads. A fixed number, not a measured
 # time: the same input must give the same result everywhere.
-AUTO_EXACT_PIXEL_SEEDS = 4e7
+AUTO_EXACT_PIXEL_SEEDS = 1.5e8
 # Otherwise the first of these for which 999 of 1,000 pixels lie within this many 8-bit levels of the exact result.
 AUTO_NEAREST = (8, 16, 32)
 AUTO_TOLERANCE_LEVELS = 4.0

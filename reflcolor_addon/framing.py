@@ -17,7 +17,7 @@ _STEPS = 24
 _CENTERINGS = 8
 _MARGIN = 1.05
 # Percent of the points on each side that may lie outside the picture: stray returns must not shrink all the others.
-_STRAY = 0.2
+_STRAY = 0.05
 # Metres; a scan of one point has no size to go by.
 _CLOSEST = 0.1
 

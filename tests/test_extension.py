@@ -184,8 +184,6 @@ def test_disabling_takes_the_command_line_verb_off(life):
 def test_blender_reports_no_policy_violation(installed_blender):
     import addon_utils
 
-    if installed_blender.app.version < (5, 0, 0):
-        pytest.skip("Blender 4.5 checks less")
     addon_utils._is_first_reset()
     assert addon_utils._extensions_warnings_get() == {}
 

@@ -10,7 +10,7 @@ for version in 3.13 3.11; do
     if tools/find_python.sh "$version" >/dev/null 2>&1; then
         found=1
         echo "test: Python $version"
-        "${MAKE:-make}" --no-print-directory test-one VENV=".venv-$version" VERSION="$version" || failed="$failed $version"
+        "${MAKE:-make}" --no-print-directory test-one VENV=".venv-$version" FOR_PYTHON="$version" || failed="$failed $version"
     else
         echo "test: no Python $version here, left out"
     fi

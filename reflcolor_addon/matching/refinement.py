@@ -87,7 +87,7 @@ def surfaces(scan_image, tiles, photo, model, radius):
     if np.count_nonzero(seen) < 64 or len(tiles.corners) < _LEAST_TILES:
         return None
     features, seen = photo.features(xy, seen, spacing(xy, seen))
-    shares = np.array([seen[r : r + tiles.size, c : c + tiles.size].mean() for r, c in tiles.corners])
+    shares = _tile_sums(seen.astype(np.float32), tiles.size)[tuple(tiles.corners.T)] / tiles.size**2
     chosen = np.flatnonzero(shares >= _LEAST_COVER)
     if len(chosen) < _LEAST_TILES:
         return None
@@ -122,7 +122,11 @@ def fitted(surfaces, model, free, *, blur, spread, penalty, rng):
     import cv2
 
     free = list(free)
-    scores = np.stack([cv2.GaussianBlur(s, (0, 0), blur, borderType=cv2.BORDER_REPLICATE) for s in surfaces.scores])
+    # All surfaces side by side in one image; their borders are repeated far enough not to mix.
+    reach = int(3 * blur) + 1
+    stacked = np.pad(surfaces.scores, ((0, 0), (reach, reach), (reach, reach)), mode="edge")
+    blurred = cv2.GaussianBlur(stacked.reshape(-1, stacked.shape[2]), (2 * reach + 1, 2 * reach + 1), blur)
+    scores = blurred.reshape(stacked.shape)[:, reach:-reach, reach:-reach]
     count = 8 if model.kind == "homography" else len(model.UNITS)
 
     def value(candidates):
@@ -157,39 +161,49 @@ def _looked_up(scores, shift):
     return np.where(inside, top * (1 - down) + bottom * down, _OUTSIDE)
 
 
+def _tile_sums(image, size):
+    """(H, W): the sum over the square of ``size`` pixels that begins at each pixel."""
+    import cv2
+
+    return cv2.boxFilter(
+        image, cv2.CV_32F, (size, size), normalize=False, anchor=(0, 0), borderType=cv2.BORDER_CONSTANT
+    )
+
+
 def _correlations(own, other, corners, size, radius):
     """Normalized cross-correlation of every tile of ``own`` with ``other`` over all shifts, as deviations; and which
     tiles have anything to say."""
     import cv2
 
     padded = np.pad(other, ((radius, radius), (radius, radius), (0, 0)))
-    energy = cv2.boxFilter(
-        (padded**2).sum(axis=-1), cv2.CV_32F, (size, size), normalize=False, anchor=(0, 0), borderType=cv2.BORDER_CONSTANT
-    )
-    usual = np.median(energy[energy > 0]) if (energy > 0).any() else 1.0
-    window = 2 * radius + 1
-    # matchTemplate takes one or three channels: two passes of three, the last one empty.
-    empty = np.zeros((*padded.shape[:2], 1), np.float32)
-    padded = np.ascontiguousarray(np.concatenate([padded, empty], axis=-1).reshape(*padded.shape[:2], 2, 3).transpose(2, 0, 1, 3))
-    own = np.concatenate([own, np.zeros((*own.shape[:2], 1), np.float32)], axis=-1)
-    own = np.ascontiguousarray(own.reshape(*own.shape[:2], 2, 3).transpose(2, 0, 1, 3))
+    energy = _tile_sums((padded**2).sum(axis=-1), size)
+    usual = float(np.median(energy[energy > 0])) if (energy > 0).any() else 1.0
+    energy = np.maximum(energy, 0.25 * usual)
+    strength = _tile_sums((own**2).sum(axis=-1), size)[tuple(corners.T)]
+    padded, own = _in_threes(padded), _in_threes(own)
+    window, reach = 2 * radius + 1, size + 2 * radius
     scores = np.zeros((len(corners), window, window), np.float32)
-    lively = np.zeros(len(corners), bool)
-    for index, (row, col) in enumerate(corners):
-        tile = own[:, row : row + size, col : col + size]
-        strength = float((tile**2).sum())
-        if strength < 1e-3:
-            continue
+    for index in np.flatnonzero(strength > 1e-3):
+        row, col = corners[index]
         product = sum(
-            cv2.matchTemplate(padded[k, row : row + size + 2 * radius, col : col + size + 2 * radius], tile[k], cv2.TM_CCORR)
-            for k in (0, 1)
+            cv2.matchTemplate(
+                other_half[row : row + reach, col : col + reach],
+                own_half[row : row + size, col : col + size],
+                cv2.TM_CCORR,
+            )
+            for other_half, own_half in zip(padded, own, strict=True)
         )
-        around = energy[row : row + window, col : col + window]
-        score = product / np.sqrt(np.maximum(around, 0.25 * usual) * strength)
-        deviation = score.std()
-        lively[index] = deviation > 1e-4
-        scores[index] = (score - score.mean()) / (deviation + 1e-3)
-    return scores, lively
+        scores[index] = product / np.sqrt(energy[row : row + window, col : col + window] * strength[index])
+    deviation = scores.std(axis=(1, 2), keepdims=True)
+    return (scores - scores.mean(axis=(1, 2), keepdims=True)) / (deviation + 1e-3), deviation[:, 0, 0] > 1e-4
+
+
+def _in_threes(features):
+    """The five channels as two images of three, the last one empty: matchTemplate takes one channel or three."""
+    import cv2
+
+    channels = [*cv2.split(features), np.zeros(features.shape[:2], np.float32)]
+    return cv2.merge(channels[:3]), cv2.merge(channels[3:])
 
 
 def _local_maps(scan_image, model, sites, middles, at):

@@ -12,7 +12,7 @@ from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, judged
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
 _COARSE, _MIDDLE, _FINE = (1.0, 24), (0.625, 32), (0.42, TILE)
-_CONVINCING = 25.0
+_CONVINCING = 15.0
 _GUESSES = 6
 _PENALTY = 0.004
 
@@ -79,16 +79,12 @@ def register(views, photo, *, step=lambda text: None):
         The best there is, accepted or not.
     """
     best = Registration(None, NO_EVIDENCE, "nothing")
-    for attempt in (_by_features, _from_scanner, _from_aside):
-        for tone in TONES:
-            step(f"{photo.name}: {attempt.__doc__.splitlines()[0].lower()}")
-            found = attempt(views, photo, tone, step)
-            if found.evidence.strength > best.evidence.strength:
-                best = found
-            if best.accepted and best.evidence.strength >= _CONVINCING:
-                return best
-        if best.accepted and attempt is not _by_features:
-            return best
+    for attempt, tone in _ATTEMPTS:
+        found = attempt(views, photo, tone, step)
+        if found.evidence.strength > best.evidence.strength:
+            best = found
+        if best.accepted and best.evidence.strength >= _CONVINCING:
+            break
     return best
 
 
@@ -153,7 +149,7 @@ def _searched(views, photo, tone, centers, pitches, step):
         step(f"{photo.name}: searching directions")
         sphere = views.sphere(tone, center)
         maps[sphere.center] = sphere
-        guesses += sphere.guesses(photo, FOCALS, pitches, (0.0,))
+        guesses += sphere.guesses(photo, FOCALS if len(centers) == 1 else FOCALS[::2], pitches, (0.0,))
     guesses.sort(key=lambda guess: -guess.score)
     guesses = sharpened(maps, photo, guesses, 5)[:_GUESSES]
     coarse = []
@@ -171,3 +167,11 @@ def _searched(views, photo, tone, centers, pitches, step):
         if proof.strength > best.evidence.strength:
             best = Registration(model, proof, "search")
     return best
+
+
+_ATTEMPTS = (
+    (_by_features, "ranks"),
+    (_from_scanner, "ranks"),
+    (_from_scanner, "percentiles"),
+    (_from_aside, "ranks"),
+)
