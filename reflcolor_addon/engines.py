@@ -22,7 +22,7 @@ class NativeEngine:
     name = f"reflcolor kernel, interface {kernel.ABI_VERSION}"
     note = None
     # What is held at once, in bytes per pixel: always, per thread, and per nearest seed.
-    memory = (110, 45, 10)
+    memory = (90, 20, 10)
 
     def __init__(self, graph):
         self.shape = graph.shape
