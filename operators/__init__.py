@@ -16,6 +16,7 @@ from . import (
     properties,
     remove_seed,
     save_seeds,
+    simulate,
 )
 
 _MODULES = (
@@ -30,6 +31,7 @@ _MODULES = (
     load_seeds,
     save_seeds,
     colorize,
+    simulate,
 )
 _undo = []
 
@@ -42,8 +44,9 @@ def register():
     for owner, cls in ((bpy.types.Object, properties.ReflcolorScan), (bpy.types.Scene, properties.ReflcolorSettings)):
         owner.reflcolor = bpy.props.PointerProperty(type=cls)
         _undo.append((_delete_property, owner))
-    bpy.types.TOPBAR_MT_file_import.append(import_scan.draw_menu)
-    _undo.append((bpy.types.TOPBAR_MT_file_import.remove, import_scan.draw_menu))
+    for menu, module in ((bpy.types.TOPBAR_MT_file_import, import_scan), (bpy.types.TOPBAR_MT_file_export, simulate)):
+        menu.append(module.draw_menu)
+        _undo.append((menu.remove, module.draw_menu))
     _undo.append((bpy.utils.unregister_cli_command, bpy.utils.register_cli_command("reflcolor", command.run)))
 
 

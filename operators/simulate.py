@@ -220,4 +220,9 @@ class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
                 body.prop(self, name)
 
 
+def draw_menu(self, _context):
+    """Entry of File > Export."""
+    self.layout.operator(REFLCOLOR_OT_simulate.bl_idname, text="Simulated Laser Scan (.e57, .ptx, .scan.json)")
+
+
 classes = (REFLCOLOR_OT_simulate,)

@@ -98,7 +98,7 @@ static inline void rc_start(const rc_steps *s, rc_queue *queue, float *current, 
 {
     rc_set(s, current, p, at);
     flags[p] |= RC_WAITING;
-    rc_push(queue, at, p);
+    rc_push(queue, at, p, 1);
 }
 
 /* Settle everything in the queue. `current` holds, per plane position, the distance below which a path is of
@@ -159,10 +159,9 @@ static inline int32_t rc_march(const rc_steps *s, rc_queue *queue, float *curren
                         owner[q] = owner[batch[n]];
                     }
                     /* A pixel that waits in the right bucket already is not put there twice. */
-                    if (!(flags[q] & RC_WAITING) || (rc_bits(before) ^ rc_bits(to)) >> queue->shift) {
-                        flags[q] |= RC_WAITING;
-                        rc_push(queue, to, q);
-                    }
+                    const uint32_t moved = (rc_bits(before) ^ rc_bits(to)) >> queue->shift;
+                    rc_push(queue, to, q, !(flags[q] & RC_WAITING) | (moved != 0));
+                    flags[q] |= RC_WAITING;
                 }
             }
             if (trail) {

@@ -17,12 +17,12 @@
 #define RC_CHUNK 116
 #define RC_CHUNKS_PER_BLOCK 128
 /* Buckets: those of the upper bits, then the middle ones, then the last ones. */
-#define RC_MIDDLE 512
+#define RC_MIDDLE 4096
 #define RC_LAST (RC_MIDDLE + 1024)
 #define RC_BUCKETS (RC_LAST + 1024)
-#define RC_TOP_SHIFT 22
-#define RC_MIDDLE_SHIFT 12
-#define RC_LAST_SHIFT 2
+#define RC_TOP_SHIFT 19
+#define RC_MIDDLE_SHIFT 9
+#define RC_LAST_SHIFT 0
 /* More chunks than this and a bucket is dealt out when its turn comes. */
 #define RC_DEAL_CHUNKS 8
 /* Pixels settled from one undealt bucket before it is dealt out after all. */
@@ -118,7 +118,8 @@ static inline void rc_chunk_release(rc_queue *q, rc_chunk *c)
 
 static inline void rc_mark_empty(rc_queue *q, int32_t i) { q->occupied[i >> 6] &= ~((uint64_t)1 << (i & 63)); }
 
-static inline void rc_push(rc_queue *q, float distance, int32_t pixel)
+/* Put a pixel into its bucket if `wanted` is 1; whether it is cannot be foreseen, so that no branch depends on it. */
+static inline void rc_push(rc_queue *q, float distance, int32_t pixel, int wanted)
 {
     const uint32_t key = rc_bits(distance);
     const int32_t top = (int32_t)(key >> RC_TOP_SHIFT);
@@ -142,7 +143,8 @@ static inline void rc_push(rc_queue *q, float distance, int32_t pixel)
         b->chunks++;
         q->occupied[i >> 6] |= (uint64_t)1 << (i & 63);
     }
-    c->pixel[c->used++] = pixel;
+    c->pixel[c->used] = pixel;
+    c->used += wanted;
 }
 
 /* Take up to RC_BATCH pixels out of a bucket; returns how many. */
@@ -184,7 +186,7 @@ static inline void rc_deal(rc_queue *q, int32_t i, const float *current, const u
     while (c) {
         for (int64_t n = 0; n < c->used; n++) {
             if (flags[c->pixel[n]] & RC_WAITING) {
-                rc_push(q, current[c->pixel[n]], c->pixel[n]);
+                rc_push(q, current[c->pixel[n]], c->pixel[n], 1);
             }
         }
         rc_chunk *next = c->next;

@@ -8,12 +8,13 @@ from . import features
 from .refinement import Tiles, fitted, surfaces
 from .scan_image import TONES, ScanImage, pixel_steps, toned
 from .search import FOCALS, SphereMap, map_step, sharpened, viewpoints
-from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, judged
+from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
-_COARSE, _MIDDLE, _FINE = (1.0, 24), (0.625, 32), (0.42, TILE)
+_COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
 _CONVINCING = 15.0
-_GUESSES = 6
+_GUESSES = 14
+_TRIED = 5
 _PENALTY = 0.004
 
 
@@ -102,9 +103,14 @@ def refined(views, photo, model, tone, levels, *, free, rng):
 def finely(views, photo, model, tone, rng):
     """Return a camera or homography that is nearly right, fitted with all it has, and its `Evidence`."""
     if model.kind == "homography":
-        return refined(views, photo, model, tone, [(*_FINE, 6, 0.5, 0.4)], free=model.ALL, rng=rng)
-    model, _ = refined(views, photo, model, tone, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)], free=model.POSE, rng=rng)
-    return refined(views, photo, model, tone, [(*_FINE, 6, 0.5, 0.2)], free=model.ALL, rng=rng)
+        stages = [(model.ALL, [(*_FINE, 6, 0.5, 0.4)])]
+    else:
+        stages = [(model.POSE, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)]), (model.ALL, [(*_FINE, 6, 0.5, 0.2)])]
+    for free, levels in stages:
+        model, proof = refined(views, photo, model, tone, levels, free=free, rng=rng)
+        if proof is NO_EVIDENCE:
+            return model, proof
+    return model, evidence(views.image(tone, _FINE[0]), photo, model)
 
 
 def _by_features(views, photo, tone, step):
@@ -151,17 +157,20 @@ def _searched(views, photo, tone, centers, pitches, step):
         maps[sphere.center] = sphere
         guesses += sphere.guesses(photo, FOCALS if len(centers) == 1 else FOCALS[::2], pitches, (0.0,))
     guesses.sort(key=lambda guess: -guess.score)
-    guesses = sharpened(maps, photo, guesses, 5)[:_GUESSES]
     coarse = []
-    for guess in guesses:
+    for guess in sharpened(maps, photo, guesses, 5)[:_GUESSES]:
         step(f"{photo.name}: trying directions")
         model = guess.camera(photo)
-        free = model.ROTATION if guess.center == (0.0, 0.0, 0.0) else model.POSE
-        levels = [(*_COARSE, 10, 1.5, 1.2), (*_MIDDLE, 10, 1.0, 0.6)]
-        coarse.append(refined(views, photo, model, tone, levels, free=free, rng=rng))
+        coarse.append(refined(views, photo, model, tone, [(*_COARSE, 10, 1.5, 1.2)], free=model.ROTATION, rng=rng))
     coarse.sort(key=lambda found: -found[1].strength)
+    middle = []
+    for model, _ in coarse[:_TRIED]:
+        step(f"{photo.name}: trying directions")
+        free = model.ROTATION if len(centers) == 1 else model.POSE
+        middle.append(refined(views, photo, model, tone, [(*_MIDDLE, 10, 1.0, 0.8)], free=free, rng=rng))
+    middle.sort(key=lambda found: -found[1].strength)
     best = Registration(None, NO_EVIDENCE, "search")
-    for model, _ in coarse[:2]:
+    for model, _ in middle[:2]:
         step(f"{photo.name}: refining")
         model, proof = finely(views, photo, model, tone, rng)
         if proof.strength > best.evidence.strength:

@@ -8,7 +8,7 @@ from ..normalization import normalize
 from .edges import scan_features
 
 TONES = ("ranks", "percentiles")
-RANGE_WEIGHT = 0.5
+RANGE_WEIGHT = 0.35
 
 
 def toned(scan, tone):

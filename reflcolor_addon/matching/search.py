@@ -11,12 +11,14 @@ import numpy as np
 
 from .edges import edge_features, filled, scan_features
 from .models import Camera, camera_axes
-from .scan_image import RANGE_WEIGHT, pixel_steps
+from .scan_image import pixel_steps
 
 FOCALS = (0.5, 0.6, 0.72, 0.866, 1.04, 1.25, 1.5, 1.8, 2.2)
 """Focal lengths that are tried, in lengths of the photo's longer side: fields of view of 90 to 26 degrees."""
 
 _LEAST_OVERLAP = 0.2
+# A skyline or an edge of a thing is seen from afar, so range counts for more here than in the tiles.
+_RANGE_WEIGHT = 0.7
 _CUT_MARGIN_DEG = 100
 
 
@@ -42,7 +44,7 @@ def map_step(scan):
     """Return the size in degrees of the pixels that a scan is searched with."""
     vertical, horizontal = pixel_steps(scan)
     extent = max(scan.shape[0] * vertical, scan.shape[1] * horizontal)
-    return float(np.clip(extent / 180, max(vertical, horizontal), 0.6 if extent > 108 else 2.0))
+    return float(np.clip(extent / 200, max(vertical, horizontal), 0.6 if extent > 120 else 2.0))
 
 
 class SphereMap:
@@ -66,7 +68,7 @@ class SphereMap:
             # The photo may lie across the cut.
             margin = min(shape[1], int(_CUT_MARGIN_DEG / step_deg))
             reflectance, range_m, valid = (np.hstack([a, a[:, :margin]]) for a in (reflectance, range_m, valid))
-        features = scan_features(reflectance, range_m, valid, range_weight=RANGE_WEIGHT)
+        features = scan_features(reflectance, range_m, valid, range_weight=_RANGE_WEIGHT)
         self._features = np.moveaxis(features, -1, 0)
         self._weight = features.any(axis=-1).astype(np.float32)
         self._transformed = {}

@@ -15,11 +15,12 @@ RADIUS = 8
 """Half the window that a tile is sought in, in pixels."""
 
 TILE = 40
+_SIZES = (28, TILE, 56)
 _NEAR = 1.5
 _CHANCE = 0.06
-ACCEPTED_EVIDENCE = 6.0
-ACCEPTED_MEAN = 0.85
-_ACCEPTED_TILES = 8
+_ACCEPTED_DEVIATIONS = 4.0
+_ACCEPTED_MEAN = 0.85
+_ACCEPTED_TILES = 10
 # The tiles in place must spread over the scan as far as a third of how all tiles do.
 _ACCEPTED_SPREAD = 0.33
 
@@ -47,8 +48,8 @@ class Evidence:
     def accepted(self):
         """Whether the model is right."""
         return (
-            self.deviations >= ACCEPTED_EVIDENCE
-            and self.mean >= ACCEPTED_MEAN
+            self.deviations >= _ACCEPTED_DEVIATIONS
+            and self.mean >= _ACCEPTED_MEAN
             and self.in_place >= _ACCEPTED_TILES
             and self.spread >= _ACCEPTED_SPREAD
         )
@@ -65,10 +66,23 @@ class Evidence:
 NO_EVIDENCE = Evidence(0.0, 0, 0, 0.0, 0.0)
 
 
-def evidence(scan_image, photo, model, size=TILE):
-    """Return the `Evidence` for a model on a `ScanImage`."""
-    found = surfaces(scan_image, Tiles.of(scan_image, size), photo, model, RADIUS)
-    return NO_EVIDENCE if found is None else judged(found)
+def evidence(scan_image, photo, model):
+    """Return the `Evidence` for a model on a `ScanImage`, from tiles of three sizes.
+
+    Chance is not the same for tiles of different sizes: what is right stands out in all of them.
+    """
+    found = [surfaces(scan_image, Tiles.of(scan_image, size), photo, model, RADIUS) for size in _SIZES]
+    if any(one is None for one in found):
+        return NO_EVIDENCE
+    judgements = [judged(one) for one in found]
+    middle = judgements[_SIZES.index(TILE)]
+    return Evidence(
+        float(np.mean([one.deviations for one in judgements])),
+        middle.in_place,
+        middle.tiles,
+        float(np.mean([one.mean for one in judgements])),
+        middle.spread,
+    )
 
 
 def judged(found):
