@@ -3,11 +3,12 @@
 import bpy
 
 from ..reflcolor_addon import cli
+from ..reflcolor_addon.blender_door import BlenderDoor
+from .simulate_file import simulate_file
 from .write_results import write_results
 
 
 def run(argv):
-    """Run the command line with Blender's outputs; return the exit status."""
-    return cli.main(
-        argv, scene_writer=write_results, prog="blender -b --command reflcolor", blender=bpy.app.version_string
-    )
+    """Run the command line with all that Blender can do; return the exit status."""
+    door = BlenderDoor(version=bpy.app.version_string, write_scene=write_results, simulate=simulate_file)
+    return cli.main(argv, prog="blender -b --command reflcolor", blender=door)

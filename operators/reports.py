@@ -2,7 +2,7 @@
 
 from functools import wraps
 
-from ..reflcolor_addon.errors import ReflcolorError
+from ..reflcolor_addon.errors import ReflcolorError, UsageError
 
 
 def reported(execute):
@@ -12,7 +12,7 @@ def reported(execute):
     def reporting(self, context):
         try:
             return execute(self, context)
-        except ReflcolorError as error:
+        except (ReflcolorError, UsageError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
 

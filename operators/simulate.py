@@ -9,7 +9,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..reflcolor_addon.virtual_scanner import ScannerModel
 from .reports import reported
-from .simulation import Simulation, leveled_pose, simulation_steps
+from .simulation import Simulation, leveled_pose, photo_cameras, simulation_steps
 
 _DEFAULT = ScannerModel()
 
@@ -171,7 +171,8 @@ class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
         context.workspace.status_text_set(None)
 
     def _simulation(self, context):
-        pose, camera = leveled_pose(context, self.station)
+        scene = context.scene
+        item = {"CAMERA": scene.camera, "ACTIVE": context.active_object, "CURSOR": None}[self.station]
         half = 180.0 if self.full_turn else degrees(self.azimuth) / 2
         model = ScannerModel(
             rows=self.rows,
@@ -185,13 +186,12 @@ class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
             dropout_rate=self.dropouts,
             seed=self.seed,
         )
-        scene_cameras = [item for item in context.scene.objects if item.type == "CAMERA" and item is not camera]
         return Simulation(
             path=Path(bpy.path.abspath(self.filepath)),
-            pose=pose,
+            pose=leveled_pose(scene, self.station, item),
             model=model,
             truth=self.truth,
-            cameras=tuple(item.name for item in scene_cameras) if self.photos else (),
+            cameras=photo_cameras(scene, item) if self.photos else (),
             samples=self.photo_samples,
             own_look=self.own_look,
         )

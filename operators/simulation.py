@@ -52,6 +52,28 @@ class Simulation:
     samples: int = 32
     own_look: bool = True
 
+    def files(self):
+        """Return the paths of all that is written, the scan first."""
+        endings = ["range.png", "reflectance.png"] * self._is_pair + ["truth.png"] * self.truth
+        endings += ["cameras.json"] * bool(self.cameras)
+        return [self.path, *map(self._beside, endings), *map(self.photo_path, self.cameras)]
+
+    def photo_path(self, camera):
+        """Return where the photo from a camera goes."""
+        return self._beside(f"{bpy.path.clean_name(camera)}.png")
+
+    @property
+    def stem(self):
+        """The name of the scan, without suffix."""
+        return self.path.name[: -len(_PAIR_SUFFIX)] if self._is_pair else self.path.stem
+
+    @property
+    def _is_pair(self):
+        return self.path.name.lower().endswith(_PAIR_SUFFIX)
+
+    def _beside(self, ending):
+        return self.path.with_name(f"{self.stem}.{ending}")
+
 
 def simulation_steps(scene, simulation):
     """Scan and photograph a scene, and write the files; a generator, for callers that do something between the steps.
@@ -68,12 +90,9 @@ def simulation_steps(scene, simulation):
     SettingsError
         If a camera to take a photo from is not a perspective camera of the scene.
     """
-    path, model = simulation.path, simulation.model
+    path, model, stem = simulation.path, simulation.model, simulation.stem
     write = _writer(path)
-    stem = path.name[: -len(_PAIR_SUFFIX)] if path.name.lower().endswith(_PAIR_SUFFIX) else path.stem
-    names = {name: f"{stem}.{bpy.path.clean_name(name)}.png" for name in simulation.cameras}
-    others = [f"{stem}.truth.png"] * simulation.truth + [f"{stem}.cameras.json"] * bool(names) + list(names.values())
-    check_outputs([("output", path.with_name(name)) for name in (path.name, *others)], [])
+    check_outputs([("output", file) for file in simulation.files()], [])
     cameras = {name: _virtual_camera(scene, name) for name in simulation.cameras}
     if simulation.own_look:
         cameras = {
@@ -98,39 +117,44 @@ def simulation_steps(scene, simulation):
     if simulation.truth:
         write_png(path.with_name(f"{stem}.truth.png"), truth)
     for name, photo in photos.items():
-        write_png(path.with_name(names[name]), photo.image)
+        write_png(simulation.photo_path(name), photo.image)
     if photos:
-        document = {names[name]: photo.camera.as_dict() for name, photo in photos.items()}
+        document = {simulation.photo_path(name).name: photo.camera.as_dict() for name, photo in photos.items()}
         with written_atomically(path.with_name(f"{stem}.cameras.json")) as temporary:
             temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
 
 
-def leveled_pose(context, station):
-    """Return the pose of a scanner that stands leveled at a station, and the object that stands there already, if any.
+def leveled_pose(scene, station, item):
+    """Return the pose of a scanner that stands leveled at a station.
 
     Parameters
     ----------
-    context : bpy.types.Context
+    scene : bpy.types.Scene
     station : {"CAMERA", "ACTIVE", "CURSOR"}
+        Which axis of it looks ahead: a camera's view, or another object's or the cursor's Y.
+    item : bpy.types.Object or None
+        What stands there; None for the cursor.
 
     Returns
     -------
-    pose : (4, 4) float64
+    (4, 4) float64
         Metres.
-    item : bpy.types.Object or None
 
     Raises
     ------
     SettingsError
         If there is no such object.
     """
-    scene = context.scene
-    item = {"CAMERA": scene.camera, "ACTIVE": context.active_object, "CURSOR": None}[station]
     if item is None and station != "CURSOR":
         missing = "the scene has no camera" if station == "CAMERA" else "no object is active"
         raise SettingsError(f"scanner: {missing}; choose where else the scanner stands")
     matrix = scene.cursor.matrix if item is None else item.matrix_world
-    return leveled(matrix, scene.unit_settings.scale_length, *_FORWARD[station]), item
+    return leveled(matrix, scene.unit_settings.scale_length, *_FORWARD[station])
+
+
+def photo_cameras(scene, station):
+    """Return the names of all cameras of the scene but the object that the scanner stands at."""
+    return tuple(item.name for item in scene.objects if item.type == "CAMERA" and item != station)
 
 
 def leveled(matrix, metres_per_unit, axis=1, sign=1.0):

@@ -16,21 +16,17 @@ from .version import __version__
 DONE, BAD_INPUT, WRONG_USAGE = 0, 1, 2
 
 
-def main(argv, *, scene_writer=None, prog="python -m reflcolor_addon", blender=None):
+def main(argv, *, prog="python -m reflcolor_addon", blender=None):
     """Run one command and return its exit status.
 
     Parameters
     ----------
     argv : list of str
         The arguments, without the program's name.
-    scene_writer : callable, optional
-        Writes what only Blender can: called as ``scene_writer(scan, colorization, paths, render, progress,
-        provenance)`` with the .blend, .glb and .ply files to write, the picture to render or None, and the report
-        without its times; raises OutputError. Without it, asking for these is wrong usage.
     prog : str
         How the person called the program, for messages.
-    blender : str, optional
-        Blender's version, for the report.
+    blender : BlenderDoor, optional
+        What only Blender can do. Without it, asking for that is wrong usage.
     """
     console = Console()
     try:
@@ -41,7 +37,7 @@ def main(argv, *, scene_writer=None, prog="python -m reflcolor_addon", blender=N
     except SystemExit as end:  # how argparse ends after --help and --version
         return int(end.code or 0)
     with Interruption() as interruption:
-        session = Session(console=console, cancelled=interruption.requested, scene_writer=scene_writer, blender=blender)
+        session = Session(console=console, cancelled=interruption.requested, blender=blender)
         try:
             arguments.run(arguments, session)
             for warning in session.warnings:
@@ -57,7 +53,7 @@ def main(argv, *, scene_writer=None, prog="python -m reflcolor_addon", blender=N
             status = interruption.exit_status if interruption.requested() else BAD_INPUT
             message = str(error)
         except MemoryError:
-            status, message = BAD_INPUT, f"{arguments.scan}: not enough memory for a scan of this size"
+            status, message = BAD_INPUT, f"{arguments.input}: not enough memory for a scan of this size"
     if session.written:
         message += f"; already written: {', '.join(map(str, session.written))}"
     console.error(message)

@@ -11,12 +11,16 @@ from .colorization import Colorization
 from .engines import engine_for
 from .errors import Cancelled
 from .graph import PixelGraph
+from .kriging import MAX_SEEDS, Kriging, pixel_features
 from .memory import require_memory
 from .normalization import normalize
 from .settings import Settings
+from .smoothing import smooth
 
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
 _HALF_CONFIDENCE = 64.0
+# The same for the difference between eq. 1 and kriging, in 8-bit levels.
+_HALF_CONFIDENCE_LEVELS = 5.0
 # nearest="auto": exact up to this many pixels times seeds, about 2 s on two threads. A fixed number, not a measured
 # time: the same input must give the same result everywhere.
 AUTO_EXACT_PIXEL_SEEDS = 1.5e8
@@ -25,6 +29,10 @@ AUTO_NEAREST = (8, 16, 32)
 AUTO_TOLERANCE_LEVELS = 4.0
 _POLL_S = 0.02
 _DEFAULT_MEMORY = 1 << 30
+# Of the progress; the colors are written after both.
+_PROPAGATED, _COLORED = 0.75, 0.95
+_KRIGING_BYTES = 220
+"""What kriging holds at its worst moment, per pixel."""
 
 
 class Colorizer:
@@ -75,18 +83,31 @@ class Colorizer:
         progress(0.0, "Preparing the scan")
         pixels = np.ravel_multi_index((seeds.rows, seeds.cols), self.scan.shape)
         chrominance = colorspaces.chrominance(seeds.rgb, self.settings.color_space).astype(np.float32)
-        mean, method = self._propagate(pixels, chrominance, progress, cancelled)
-        progress(0.95, "Writing the colors")
+        kriging = self.settings.kriging
+        if kriging and len(seeds) > MAX_SEEDS:
+            kriging = 0.0
+            warnings.append(f"kriging is left out: it takes {MAX_SEEDS} seeds at most, found {len(seeds)}")
+        propagated = _PROPAGATED if kriging else _COLORED
+        mean, method = self._propagate(
+            pixels, chrominance, lambda done, text: progress(propagated * done, text), cancelled
+        )
         reached = np.isfinite(mean.least)
+        chroma, confidence = mean.chroma, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
+        if kriging:
+            estimate = self._krige(pixels, chrominance, progress, cancelled)
+            levels = np.hypot(*(estimate - chroma)) * colorspaces.levels_per_unit(self.settings.color_space)
+            confidence /= 1 + levels / _HALF_CONFIDENCE_LEVELS
+            chroma = (1 - kriging) * chroma + kriging * estimate
+        progress(_COLORED, "Writing the colors")
         unreached = int(np.count_nonzero(self.scan.valid & ~reached))
         if unreached:
             warnings.append(f"{unreached} pixels are cut off from every seed and keep their gray; add seeds there")
-        rgb = colorspaces.merge(self._luminance, np.moveaxis(mean.chroma, 0, -1), self.settings.color_space)
+        rgb = colorspaces.merge(self._luminance, np.moveaxis(chroma, 0, -1), self.settings.color_space)
         rgb[~reached] = np.rint(self._luminance[~reached])[:, None]
         progress(1.0, "Colorized")
         return Colorization(
             rgb=rgb,
-            confidence=np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0).astype(np.float32),
+            confidence=confidence.astype(np.float32),
             nearest_seed=mean.nearest_seed,
             seeds=seeds,
             warnings=tuple(warnings),
@@ -97,11 +118,14 @@ class Colorizer:
     def _use(self, settings):
         """Take over settings; what they make void is dropped."""
         before, self.settings = self.settings, settings
-        if before is not None and (before.beta, before.neighbors) == (settings.beta, settings.neighbors):
+        if before is None or before.smoothing != settings.smoothing:
+            self._smoothed = smooth(self._luminance, self.scan.valid, settings.smoothing, wrap=self.scan.full_turn)
+            self._features = None
+        elif (before.beta, before.neighbors) == (settings.beta, settings.neighbors):
             return
         self._engine = engine_for(
             PixelGraph(
-                luminance=self._luminance,
+                luminance=self._smoothed,
                 range_image=self._range_image,
                 valid=self.scan.valid,
                 beta=settings.beta,
@@ -122,6 +146,7 @@ class Colorizer:
         per_pixel = always + (
             per_nearest * min(labels, seeds) if isinstance(labels, int) else per_thread * self.threads
         )
+        per_pixel += _KRIGING_BYTES if self.settings.kriging else 0
         rows, columns = self.scan.shape
         require_memory(per_pixel * rows * columns, f"{self.scan.name}: colorizing {rows} rows x {columns} columns")
 
@@ -166,7 +191,7 @@ class Colorizer:
                     self._blend.add(field, wanted[index][1])
                     self._blended.append(wanted[index])
                     self._hold(wanted[index][0], field)
-                    progress(0.95 * (index + 1) / len(wanted), f"Seed {index + 1} of {len(wanted)}")
+                    progress((index + 1) / len(wanted), f"Seed {index + 1} of {len(wanted)}")
             except BaseException:
                 control.cancel()
                 raise
@@ -188,7 +213,7 @@ class Colorizer:
         alpha = self.settings.alpha
 
         def tell():
-            progress(0.95 * min(1, control.done / len(pixels)), f"{k} nearest of {len(pixels)} seeds")
+            progress(min(1, control.done / len(pixels)), f"{k} nearest of {len(pixels)} seeds")
 
         with ThreadPoolExecutor(1, "reflcolor") as pool:
             later = pool.submit(self._engine.nearest, pixels, chrominance, alpha, k, control)
@@ -197,6 +222,31 @@ class Colorizer:
             except BaseException:
                 control.cancel()
                 raise
+
+    def _krige(self, pixels, chrominance, progress, cancelled):
+        """Return the (2, H, W) float32 chrominance estimated by kriging; 0 where not valid."""
+        if self._features is None:
+            self._features = pixel_features(self.scan, self._smoothed)
+        kriging = Kriging(self._features[pixels], chrominance)
+        estimate = np.zeros((self.scan.valid.size, 2), np.float32)
+        inside = np.flatnonzero(self.scan.valid)
+
+        def fill(chunk):
+            estimate[inside[chunk]] = kriging.estimate(self._features[inside[chunk]])
+
+        chunks = kriging.chunks(inside.size)
+        with ThreadPoolExecutor(self.threads, "reflcolor") as pool:
+            running = [pool.submit(fill, chunk) for chunk in chunks]
+            try:
+                for done, chunk in enumerate(running, 1):
+                    chunk.result()
+                    if cancelled():
+                        raise Cancelled
+                    progress(_PROPAGATED + (_COLORED - _PROPAGATED) * done / len(chunks), "Estimating by kriging")
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+        return np.moveaxis(estimate.reshape(*self.scan.shape, 2), -1, 0)
 
 
 def _awaited(later, control, tell, cancelled):

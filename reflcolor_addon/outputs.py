@@ -10,7 +10,7 @@ IMAGE_SUFFIXES = (".png",)
 SCENE_SUFFIXES = (".blend", ".glb", ".ply")
 
 
-def scene_outputs(paths, render, scene_writer):
+def scene_outputs(paths, render, blender):
     """Return those of the paths that Blender has to write.
 
     Parameters
@@ -18,7 +18,7 @@ def scene_outputs(paths, render, scene_writer):
     paths : list of Path
     render : Path or None
         The picture to render.
-    scene_writer : callable or None
+    blender : BlenderDoor or None
         None without Blender.
 
     Raises
@@ -33,10 +33,15 @@ def scene_outputs(paths, render, scene_writer):
     if render is not None and render.suffix.lower() not in IMAGE_SUFFIXES:
         raise UsageError(f"--render {render}: expected a file that ends in {' or '.join(IMAGE_SUFFIXES)}")
     scene_paths = [path for path in paths if path.suffix.lower() in SCENE_SUFFIXES]
-    if scene_writer is None and (scene_paths or render is not None):
-        what = f"-o {scene_paths[0]}" if scene_paths else f"--render {render}"
-        raise UsageError(f"{what} needs Blender; run the same as: blender -b --command reflcolor ...")
+    if scene_paths or render is not None:
+        require_blender(blender, f"-o {scene_paths[0]}" if scene_paths else f"--render {render}")
     return scene_paths
+
+
+def require_blender(blender, what):
+    """Raise UsageError where ``blender`` is None: what was asked for can be had in Blender only."""
+    if blender is None:
+        raise UsageError(f"{what} needs Blender; run the same as: blender -b --command reflcolor ...")
 
 
 def check_outputs(outputs, inputs):

@@ -16,7 +16,7 @@ _PACKAGES = ("numpy", "scipy", "scikit-image", "opencv-python-headless", "pye57"
 _CHUNK_BYTES = 1 << 20
 
 
-def build_report(scan, colorization, settings, *, index, given_seeds, inputs, outputs, blender=None):
+def build_report(scan, colorization, settings, *, index, given_seeds, inputs, outputs, photos=(), blender=None):
     """Describe a colorization; the same work on the same machine gives the same report.
 
     Parameters
@@ -32,6 +32,8 @@ def build_report(scan, colorization, settings, *, index, given_seeds, inputs, ou
         What the file is for ("scan", "seeds", "photo"), and the file.
     outputs : list of (str, Path)
         The option that asked for it, and the file.
+    photos : sequence of PhotoMatch
+        What became of each photo that seeds were looked for in.
     blender : str, optional
         Blender's version.
 
@@ -59,6 +61,10 @@ def build_report(scan, colorization, settings, *, index, given_seeds, inputs, ou
         },
         "settings": settings.as_dict(),
         "seeds": seed_entries(colorization.seeds, given_seeds),
+        "photos": [
+            {"name": photo.name, "verified": photo.verified, "reason": photo.reason, "note": photo.note}
+            for photo in photos
+        ],
         "normalization": {
             "percentiles": list(PERCENTILES),
             "reflectance": list(colorization.normalization["reflectance"]),
@@ -87,7 +93,9 @@ def seed_entries(seeds, given):
         used, asked = ({"row": int(those.rows[index]), "col": int(those.cols[index])} for those in (seeds, given))
         x, y = (None if math.isnan(value) else value for value in seeds.photo_xy[index].tolist())
         color = {"rgb": seeds.rgb[index].tolist(), "photo": photo, "x": x, "y": y}
-        entries.append(used | color | {"moved_from": None if asked == used else asked})
+        confidence = seeds.confidence[index].item()
+        found = {"confidence": None if math.isnan(confidence) else confidence, "reason": seeds.reason[index]}
+        entries.append(used | color | found | {"moved_from": None if asked == used else asked})
     return entries
 
 

@@ -15,6 +15,7 @@ from .image_files import read_image
 
 FORMAT = "reflcolor-seeds"
 VERSION = 1
+REASONS = ("pose", "homography", "appearance", "hand")
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +33,10 @@ class Seeds:
     photo_xy : (S, 2) float, optional
         Where in that photo, in pixels from its top left corner (the first pixel's center is at 0.5, 0.5); NaN where
         the color was given directly.
+    confidence : (S,) float, optional
+        How sure a color is, 0..1; NaN where nobody says.
+    reason : (S,) sequence of {"pose", "homography", "appearance", "hand"} or None, optional
+        Why the seed has its color: by the photo's verified camera or homography, by likeness, picked by hand.
 
     Raises
     ------
@@ -44,9 +49,13 @@ class Seeds:
     rgb: np.ndarray
     photos: tuple[str | None, ...] | None = None
     photo_xy: np.ndarray | None = None
+    confidence: np.ndarray | None = None
+    reason: tuple[str | None, ...] | None = None
 
     def __post_init__(self):
         count = np.size(self.rows)
+        reason = (None,) * count if self.reason is None else tuple(self.reason)
+        confidence = np.full(count, np.nan) if self.confidence is None else self.confidence
         photos = (None,) * count if self.photos is None else tuple(self.photos)
         photo_xy = np.full((count, 2), np.nan) if self.photo_xy is None else self.photo_xy
         arrays = {
@@ -56,6 +65,7 @@ class Seeds:
             if count == 0
             else _whole_numbers("rgb", self.rgb, np.uint8),
             "photo_xy": np.asarray(photo_xy, np.float64).reshape(-1, 2),
+            "confidence": np.asarray(confidence, np.float64),
         }
         for name, array in arrays.items():
             expected = (count, *{"rgb": (3,), "photo_xy": (2,)}.get(name, ()))
@@ -65,6 +75,12 @@ class Seeds:
         if len(photos) != count:
             raise SeedsError(f"seeds: {len(photos)} photo names for {count} seeds")
         object.__setattr__(self, "photos", photos)
+        if len(reason) != count:
+            raise SeedsError(f"seeds: {len(reason)} reasons for {count} seeds")
+        unknown = set(reason) - {None, *REASONS}
+        if unknown:
+            raise SeedsError(f"seeds: reason: expected one of {', '.join(REASONS)}, found {sorted(unknown)[0]!r}")
+        object.__setattr__(self, "reason", reason)
 
     def __len__(self):
         return self.rows.size
@@ -101,12 +117,17 @@ class Seeds:
             If the file cannot be written.
         """
         entries = []
-        for row, col, rgb, photo, (x, y) in zip(
-            self.rows.tolist(), self.cols.tolist(), self.rgb.tolist(), self.photos, self.photo_xy.tolist(), strict=True
+        columns = (self.rows, self.cols, self.rgb, self.photo_xy, self.confidence)
+        for row, col, rgb, (x, y), confidence, photo, reason in zip(
+            *(column.tolist() for column in columns), self.photos, self.reason, strict=True
         ):
             entry = {"row": row, "col": col, "rgb": rgb}
             if photo is not None and not math.isnan(x):
                 entry |= {"photo": photo, "x": x, "y": y}
+            if not math.isnan(confidence):
+                entry["confidence"] = round(confidence, 3)
+            if reason is not None:
+                entry["reason"] = reason
             entries.append(entry)
         lines = ",\n".join(f"  {json.dumps(entry, ensure_ascii=False)}" for entry in entries)
         text = f'{{"format": "{FORMAT}", "version": {VERSION}, "seeds": [\n{lines}\n]}}\n'
@@ -225,8 +246,8 @@ class _SeedsFile:
     def seeds(self):
         document = self._document()
         entries = [self._entry(place, entry) for place, entry in enumerate(document["seeds"], 1)]
-        rows, cols, rgb, photos, xy = zip(*entries, strict=True) if entries else ((), (), (), (), ())
-        return Seeds(rows, cols, rgb, photos, np.array(xy, np.float64).reshape(-1, 2))
+        rows, cols, rgb, photos, xy, confidence, reason = zip(*entries, strict=True) if entries else ((),) * 7
+        return Seeds(rows, cols, rgb, photos, np.array(xy, np.float64).reshape(-1, 2), np.array(confidence), reason)
 
     def _document(self):
         try:
@@ -270,7 +291,11 @@ class _SeedsFile:
                 raise SeedsError(f"{where}: {photo}: {error}") from error
         else:
             raise SeedsError(f"{where}: expected a color: either rgb, or photo with x and y")
-        return row, col, rgb, photo, xy
+        confidence = float(self._number(where, entry, "confidence", Real)) if "confidence" in entry else math.nan
+        reason = entry.get("reason")
+        if reason is not None and reason not in REASONS:
+            raise SeedsError(f"{where}: reason: expected one of {', '.join(REASONS)}, found {reprlib.repr(reason)}")
+        return row, col, rgb, photo, xy, confidence, reason
 
     def _number(self, where, entry, key, kind):
         value = entry.get(key)

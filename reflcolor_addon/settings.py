@@ -10,8 +10,10 @@ COLOR_SPACES = ("ycbcr", "yuv", "lalphabeta", "cielab")
 NEIGHBORS = (4, 8)
 ALPHA_RANGE = (0.1, 64.0)
 BETA_RANGE = (0.0, 1e6)
+MATCHINGS = ("verified", "paper")
 MAX_NEAREST = 1024
-PRESETS = {"Paper": {}}
+MAX_SMOOTHING = 16.0
+PRESETS = {"Paper": {}, "Enhanced": {"alpha": 3.0, "nearest": 8, "smoothing": 1.0, "kriging": 0.6}}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +33,22 @@ class Settings:
     nearest : int, "auto" or None
         How many of its nearest seeds color a pixel; None: all of them, as eq. 1 has it; "auto": all of them where
         that is quick, else as many as it takes to be close to that (see ``Colorization.method``).
+    smoothing : float, 0 to 16
+        Standard deviation, in pixels, of a Gaussian that the reflectance is smoothed by before anything is measured on
+        it; the luminance of the result is not smoothed. The paper has none.
+    kriging : float, 0 to 1
+        Share of kriging (see ``kriging.py``) in the chrominance; the rest is eq. 1. The paper has none.
+    matching : {"verified", "paper"}
+        How seeds are found in photos: by a camera that is verified, or as published, by the most similar superpixels.
+    slic_segments : int, 1 to 20000
+        About how many superpixels the scan, and each photo, is divided into; there is at most one seed in each.
+    slic_compactness : float, 0.001 to 100
+        Higher makes them squarer.
+    slic_sigma : float, 0 to 20
+        Pixels by which the image is smoothed before.
+    hog_cell, hog_block, hog_orientations, hog_window : int
+        Of the descriptor: pixels a cell (2 to 64), cells a block (1 to 8), directions (2 to 36), and pixels of the
+        window around a superpixel's center (at least a block, up to 256).
 
     Raises
     ------
@@ -43,6 +61,16 @@ class Settings:
     color_space: str = "ycbcr"
     neighbors: int = 8
     nearest: int | str | None = None
+    smoothing: float = 0.0
+    kriging: float = 0.0
+    matching: str = "verified"
+    slic_segments: int = 500
+    slic_compactness: float = 0.1
+    slic_sigma: float = 1.0
+    hog_cell: int = 8
+    hog_block: int = 2
+    hog_orientations: int = 9
+    hog_window: int = 48
 
     def __post_init__(self):
         _check_range("alpha", self.alpha, ALPHA_RANGE)
@@ -57,10 +85,30 @@ class Settings:
                 f'nearest: expected a whole number from 1 to {MAX_NEAREST}, "auto", or None for all, '
                 f"found {self.nearest!r}"
             )
+        _check_range("smoothing", self.smoothing, (0.0, MAX_SMOOTHING))
+        _check_range("kriging", self.kriging, (0.0, 1.0))
+        self._check_matching()
+
+    def _check_matching(self):
+        if self.matching not in MATCHINGS:
+            raise SettingsError(f"matching: expected one of {', '.join(MATCHINGS)}, found {self.matching!r}")
+        _check_range("slic_compactness", self.slic_compactness, (0.001, 100.0))
+        _check_range("slic_sigma", self.slic_sigma, (0.0, 20.0))
+        least_window = self.hog_cell * self.hog_block if _is_whole(self.hog_cell) and _is_whole(self.hog_block) else 2
+        for name, low, high in (
+            ("slic_segments", 1, 20_000),
+            ("hog_cell", 2, 64),
+            ("hog_block", 1, 8),
+            ("hog_orientations", 2, 36),
+            ("hog_window", least_window, 256),
+        ):
+            value = getattr(self, name)
+            if not (_is_whole(value) and low <= value <= high):
+                raise SettingsError(f"{name}: expected a whole number from {low} to {high}, found {value!r}")
 
     @classmethod
     def preset(cls, name, **changes):
-        """Return the settings of that name ("Paper"), with the given changes.
+        """Return the settings of that name ("Paper" or "Enhanced"), with the given changes.
 
         Raises
         ------
@@ -81,3 +129,7 @@ def _check_range(name, value, bounds):
     number = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
     if not number or not low <= value <= high:
         raise SettingsError(f"{name}: expected a number from {low:g} to {high:g}, found {value!r}")
+
+
+def _is_whole(value):
+    return isinstance(value, Integral) and not isinstance(value, bool)

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from small_scans import random_scan
 
+from reflcolor_addon.blender_door import BlenderDoor
 from reflcolor_addon.cli import main
 from reflcolor_addon.writers import write_ptx
 
@@ -37,6 +38,15 @@ def run_cli(cli_folder, capfd):
         return status, said.out, said.err
 
     return run
+
+
+def blender_door(**acts):
+    """A Blender for the command line that can do only what is given."""
+
+    def cannot(*_arguments):
+        raise AssertionError("was not to be called")
+
+    return BlenderDoor(version="5.2.2 LTS", **{"write_scene": cannot, "simulate": cannot} | acts)
 
 
 def process_line(*arguments):

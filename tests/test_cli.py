@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import COLORIZE, SHAPE, assert_refused, run_process, save_seeds
+from command_line import COLORIZE, SHAPE, assert_refused, blender_door, run_process, save_seeds
 from small_scans import random_scan
 
 from reflcolor_addon import OutputError, Seeds, Settings, colorize, read_scans
@@ -167,7 +167,7 @@ def test_several_scans_and_none_chosen_is_wrong_usage_that_lists_them(run_cli, c
 
 def test_version_and_help_end_well(run_cli):
     assert run_cli("--version") == (0, f"reflcolor {__version__}\n", "")
-    for arguments in (("--help",), ("info", "-h"), ("colorize", "-h")):
+    for arguments in (("--help",), ("info", "-h"), ("colorize", "-h"), ("evaluate", "-h"), ("simulate", "-h")):
         status, out, err = run_cli(*arguments, prog="reflcolor")
         assert (status, err) == (0, "")
         assert out.startswith("usage: reflcolor")
@@ -195,7 +195,7 @@ def test_real_scans_are_described(run_cli, data_dir):
 def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder):
     calls = []
 
-    def scene_writer(scan, colorization, paths, render, progress, provenance):
+    def write_scene(scan, colorization, paths, render, progress, provenance):
         progress(0.5, "Writing")
         calls.append((scan.name, colorization.rgb.shape, paths, render, provenance))
         for path in (*paths, render):
@@ -203,7 +203,7 @@ def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder
 
     status, out, err = run_cli(
         *COLORIZE, "-o", "a.blend", "-o", "a.png", "-o", "a.GLB", "--render", "view.png", "--report", "r.json",
-        scene_writer=scene_writer, blender="5.2.2 LTS",
+        blender=blender_door(write_scene=write_scene),
     )  # fmt: skip
     assert (status, err) == (0, "")
     assert out.split() == [
@@ -238,10 +238,12 @@ def test_without_blender_what_needs_it_is_wrong_usage(run_cli, cli_folder, argum
 
 
 def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cli_folder):
-    def scene_writer(_scan, _colorization, paths, _render, _progress, _provenance):
+    def write_scene(_scan, _colorization, paths, _render, _progress, _provenance):
         paths[0].write_bytes(b"scene")
         raise OutputError("b.glb: cannot be written (No space left on device)")
 
-    outcome = run_cli(*COLORIZE, "-o", "a.blend", "-o", "b.glb", "-o", "c.png", scene_writer=scene_writer)
+    outcome = run_cli(
+        *COLORIZE, "-o", "a.blend", "-o", "b.glb", "-o", "c.png", blender=blender_door(write_scene=write_scene)
+    )
     assert_refused(outcome, 1, "b.glb: cannot be written", "; already written: a.blend\n")
     assert not (cli_folder / "c.png").exists()

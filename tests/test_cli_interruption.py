@@ -8,7 +8,7 @@ import threading
 
 import numpy as np
 import pytest
-from command_line import COLORIZE, process_line
+from command_line import COLORIZE, blender_door, process_line
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, Seeds, colorize
@@ -57,14 +57,14 @@ def test_the_handlers_of_signals_are_put_back(run_cli, cli_folder, interrupting,
 
 
 def test_an_interruption_while_blender_writes_ends_it_and_names_what_is_there(run_cli):
-    def scene_writer(_scan, _colorization, paths, _render, progress, _provenance):
+    def write_scene(_scan, _colorization, paths, _render, progress, _provenance):
         paths[0].write_bytes(b"scene")
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(Cancelled):
             progress(0.5, "Writing b.glb")
         raise Cancelled
 
-    status, out, err = run_cli(*COLORIZE, "-o", "a.blend", "-o", "b.glb", scene_writer=scene_writer)
+    status, out, err = run_cli(*COLORIZE, "-o", "a.blend", "-o", "b.glb", blender=blender_door(write_scene=write_scene))
     assert (status, out, err) == (130, "", "error: interrupted; already written: a.blend\n")
 
 

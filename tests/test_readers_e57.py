@@ -1,5 +1,7 @@
 """Structured E57 with and without all that the standard leaves optional."""
 
+import sys
+
 import numpy as np
 import pytest
 from e57_samples import write_e57
@@ -310,3 +312,11 @@ def test_a_name_of_several_lines_becomes_one(tmp_path):
 def test_any_file_name_opens(tmp_path, name):
     write_e57(tmp_path / name, {"fields": scan_fields()})
     assert read_scans(tmp_path / name)[0].shape == (HEIGHT, WIDTH)
+
+
+def test_where_there_is_no_pye57_the_way_out_is_named(tmp_path, monkeypatch):
+    path = tmp_path / "garage.e57"
+    write_e57(path, {"fields": scan_fields()})
+    monkeypatch.setitem(sys.modules, "pye57", None)
+    with pytest.raises(ScanError, match=r"^garage\.e57: E57 needs pye57, .*; export the scan as PTX$"):
+        read_scans(path)

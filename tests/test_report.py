@@ -54,9 +54,8 @@ def test_it_says_what_was_colorized_and_how(report_of, scan):
     assert report["scan"] == {
         "name": "garage", "index": 2, "rows": 6, "columns": 10, "returns": 59, "full_turn": False
     }  # fmt: skip
-    assert report["settings"] == {
-        "alpha": 4.0, "beta": 0.0, "color_space": "cielab", "neighbors": 4, "nearest": None
-    }  # fmt: skip
+    chosen = {"alpha": 4.0, "beta": 0.0, "color_space": "cielab", "neighbors": 4, "nearest": None}
+    assert report["settings"] == Settings().as_dict() | chosen
     assert report["normalization"] == {
         "percentiles": [1.0, 99.0],
         "reflectance": np.percentile(scan.reflectance[scan.valid].astype(float), (1, 99)).tolist(),
@@ -70,9 +69,10 @@ def test_it_names_every_seed_as_it_was_used_and_as_it_was_given(report_of):
     assert report["seeds"] == [
         {
             "row": 1, "col": 3, "rgb": [10, 20, 30], "photo": None, "x": None, "y": None,
-            "moved_from": {"row": 2, "col": 3},
+            "confidence": None, "reason": None, "moved_from": {"row": 2, "col": 3},
         },
-        {"row": 4, "col": 8, "rgb": [40, 50, 60], "photo": "view.jpg", "x": 812.5, "y": 440.0, "moved_from": None},
+        {"row": 4, "col": 8, "rgb": [40, 50, 60], "photo": "view.jpg", "x": 812.5, "y": 440.0,
+         "confidence": None, "reason": None, "moved_from": None},
     ]  # fmt: skip
     assert report["warnings"] == ["seed 1: no return at row 2, column 3; moved to row 1, column 3"]
 

@@ -9,6 +9,7 @@ import pytest
 from blender_session import EXTENSION
 
 from reflcolor_addon import read_scans
+from reflcolor_addon.errors import UsageError
 from reflcolor_addon.image_files import read_image
 from reflcolor_addon.virtual_camera import VirtualCamera, look_at
 from reflcolor_addon.virtual_scanner import ScannerModel, directions, simulate_scan
@@ -211,7 +212,7 @@ def simulate(blender, simulation, path, **changes):
     scene = blender.context.scene
     if scene.camera is None:
         scene.camera = add_camera(blender, "station", (0, 0, 1.2), (1.4, 0, 0))
-    pose, _ = simulation.leveled_pose(blender.context, "CAMERA")
+    pose = simulation.leveled_pose(scene, "CAMERA", scene.camera)
     what = {"path": path, "pose": pose, "model": replace(IDEAL, seed=7), "samples": 2} | changes
     told = list(simulation.simulation_steps(scene, simulation.Simulation(**what)))
     assert [fraction for fraction, _ in told] == sorted(fraction for fraction, _ in told)
@@ -264,9 +265,10 @@ def test_the_same_simulation_gives_the_same_bytes(blender, simulation, tmp_path)
 
 
 def test_the_scanner_is_leveled_and_keeps_its_heading(blender, simulation):
-    blender.context.scene.camera = add_camera(blender, "station", (1, 2, 3), (0.9, 0.3, 0.5))
-    pose, _ = simulation.leveled_pose(blender.context, "CAMERA")
-    looks = -np.array(blender.context.scene.camera.matrix_world)[:3, 2]
+    scene = blender.context.scene
+    scene.camera = add_camera(blender, "station", (1, 2, 3), (0.9, 0.3, 0.5))
+    pose = simulation.leveled_pose(scene, "CAMERA", scene.camera)
+    looks = -np.array(scene.camera.matrix_world)[:3, 2]
     assert pose[:3, 2] == pytest.approx((0, 0, 1))
     assert pose[:2, 1] == pytest.approx(looks[:2] / np.linalg.norm(looks[:2]), abs=1e-6)
     assert np.linalg.det(pose[:3, :3]) == pytest.approx(1)
@@ -275,6 +277,14 @@ def test_the_scanner_is_leveled_and_keeps_its_heading(blender, simulation):
 def test_a_suffix_that_is_no_scan_is_one_clear_line(blender, simulation, tmp_path):
     with pytest.raises(ValueError, match=r"expected \.ptx, \.e57 or \.scan\.json"):
         simulate(blender, simulation, tmp_path / "yard.obj")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("camera", ["truth", "reflectance"])
+def test_a_photo_never_overwrites_what_else_is_written(blender, simulation, tmp_path, camera):
+    add_camera(blender, camera, (-2, 0, 1.2), (1.5, 0, -0.4))
+    with pytest.raises(UsageError, match=f"yard.{camera}.png: the same file as"):
+        simulate(blender, simulation, tmp_path / "yard.scan.json", cameras=(camera,))
     assert not list(tmp_path.iterdir())
 
 
@@ -298,4 +308,4 @@ def test_a_cancelled_simulation_leaves_nothing(blender, simulation, tmp_path):
 
 def test_a_station_that_is_not_there_is_one_clear_line(blender, simulation):
     with pytest.raises(ValueError, match="the scene has no camera"):
-        simulation.leveled_pose(blender.context, "CAMERA")
+        simulation.leveled_pose(blender.context.scene, "CAMERA", None)

@@ -3,6 +3,6 @@
 A verb's module has ``NAME`` and ``HELP``, ``add_arguments(parser)`` and ``run(arguments, session)``.
 """
 
-from . import colorize, info
+from . import colorize, evaluate, info, seeds, simulate
 
-VERBS = (info, colorize)
+VERBS = (info, seeds, colorize, evaluate, simulate)

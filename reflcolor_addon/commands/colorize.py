@@ -1,4 +1,4 @@
-"""The verb ``colorize``: from a scan and seeds to colored files."""
+"""The verb ``colorize``: from a scan and seeds, or photos, to colored files."""
 
 import json
 import time
@@ -7,71 +7,31 @@ from pathlib import Path
 
 from ..atomic import written_atomically
 from ..colorize import colorize
+from ..errors import UsageError
 from ..image_files import read_image, write_png
 from ..inputs import photo_files, scan_files
 from ..outputs import IMAGE_SUFFIXES, SCENE_SUFFIXES, check_outputs, scene_outputs, tracked
 from ..report import build_report
 from ..seeds import Seeds
-from ..settings import ALPHA_RANGE, BETA_RANGE, COLOR_SPACES, NEIGHBORS, Settings
+from .options import add_matching, add_photos, add_propagation, add_scan, settings_of
 from .session import choose_scan
 
 NAME = "colorize"
-HELP = "color a scan from seeds"
+HELP = "color a scan from seeds or photos"
 
 
 def add_arguments(parser):
     """Declare what ``colorize`` takes."""
-    default = Settings()
-    parser.add_argument("scan", metavar="SCAN", type=Path, help="scan file: .ptx, .e57 or .scan.json")
-    parser.add_argument("--seeds", metavar="SEEDS.json", type=Path, required=True, help="pixels whose color is known")
+    add_scan(parser)
     parser.add_argument(
-        "--photo",
-        metavar="IMAGE",
+        "--seeds",
+        metavar="SEEDS.json",
         type=Path,
-        nargs="+",
-        action="extend",
-        default=[],
-        help="photos that the seeds name; without this they are looked for beside the seeds' file",
+        help="pixels whose color is known; without this they are found in the photos, as the verb seeds does it",
     )
-    parser.add_argument(
-        "--alpha",
-        type=float,
-        default=default.alpha,
-        help="gain of the weights, {:g} to {:g} (default %(default)g)".format(*ALPHA_RANGE),
-    )
-    parser.add_argument(
-        "--beta",
-        type=float,
-        default=default.beta,
-        help="gain of the range, {:g} to {:g}; 0 leaves the range out (default %(default)g)".format(*BETA_RANGE),
-    )
-    parser.add_argument(
-        "--color-space",
-        choices=COLOR_SPACES,
-        default=default.color_space,
-        help="where colors are blended (default %(default)s)",
-    )
-    parser.add_argument(
-        "--neighbors",
-        type=int,
-        choices=NEIGHBORS,
-        default=default.neighbors,
-        help="pixels that a path may step to (default %(default)s)",
-    )
-    parser.add_argument(
-        "--nearest",
-        type=_nearest,
-        default="auto",
-        metavar="K",
-        help='seeds that color a pixel: "all", a number for its nearest ones, or "auto": all where that takes about two '
-        "seconds, else as many as it takes to be close to that (default auto)",
-    )
-    parser.add_argument(
-        "--scan",
-        dest="wanted",
-        metavar="NAME_OR_INDEX",
-        help="which scan of the file: its name, or its index as info prints it, counted from 1",
-    )
+    add_photos(parser, "photos that the seeds name (else looked for beside the seeds' file), or to find seeds in")
+    add_propagation(parser)
+    add_matching(parser)
     parser.add_argument(
         "-o",
         "--output",
@@ -88,28 +48,29 @@ def add_arguments(parser):
 
 def run(arguments, session):
     """Colorize one scan and write every output; all that can be checked beforehand is."""
-    settings = Settings(
-        alpha=arguments.alpha,
-        beta=arguments.beta,
-        color_space=arguments.color_space,
-        neighbors=arguments.neighbors,
-        nearest=arguments.nearest,
-    )
-    scene_paths = scene_outputs(arguments.output, arguments.render, session.scene_writer)
+    settings = settings_of(arguments)
+    if arguments.seeds is None and not arguments.photo:
+        raise UsageError("--seeds or --photo: give seeds, or photos to find them in")
+    scene_paths = scene_outputs(arguments.output, arguments.render, session.blender)
     times = {}
     with _timed(times, "seeds"):
-        seeds = _load_seeds(arguments, session)
-    inputs = [
-        *(("scan", path) for path in scan_files(arguments.scan)),
-        ("seeds", arguments.seeds),
-        *(("photo", path) for path in photo_files(seeds, arguments.seeds, arguments.photo)),
-    ]
+        seeds = _load_seeds(arguments, session) if arguments.seeds is not None else None
+    inputs = [("scan", path) for path in scan_files(arguments.input)]
+    if seeds is not None:
+        inputs.append(("seeds", arguments.seeds))
+        inputs += [("photo", path) for path in photo_files(seeds, arguments.seeds, arguments.photo)]
+    else:
+        inputs += [("photo", path) for path in dict.fromkeys(arguments.photo)]
     outputs = [("-o", path) for path in arguments.output]
     outputs += [(f"--{name}", path) for name in ("render", "report") if (path := getattr(arguments, name)) is not None]
     check_outputs(outputs, [path for _, path in inputs])
 
     with _timed(times, "read"):
-        index, scan = choose_scan(session.read_scans(arguments.scan), arguments.wanted, arguments.scan)
+        index, scan = choose_scan(session.read_scans(arguments.input), arguments.wanted, arguments.input)
+    found_in = ()
+    if seeds is None:
+        with _timed(times, "match"):
+            seeds, found_in = _found_seeds(scan, arguments.photo, settings, session)
     with _timed(times, "colorize"):
         colorization = colorize(scan, seeds, settings, progress=session.progress, cancelled=session.cancelled)
     session.warnings += [*scan.warnings, *colorization.warnings]
@@ -121,16 +82,17 @@ def run(arguments, session):
             settings,
             index=index,
             given_seeds=seeds,
+            photos=found_in,
             inputs=inputs,
             outputs=outputs,
-            blender=session.blender,
+            blender=session.blender_version,
         )
 
     images = [path for path in arguments.output if path not in scene_paths]
     with tracked([path for _, path in outputs], session.written):
         with _timed(times, "write"):
             if scene_paths or arguments.render:
-                session.scene_writer(scan, colorization, scene_paths, arguments.render, session.progress, report)
+                session.blender.write_scene(scan, colorization, scene_paths, arguments.render, session.progress, report)
             for path in images:
                 session.progress(1.0, f"Writing {path.name}")
                 write_png(path, colorization.rgb)
@@ -141,9 +103,15 @@ def run(arguments, session):
         session.console.print(f"wrote {path}")
 
 
-def _nearest(text):
-    """What follows --nearest, as a setting."""
-    return {"all": None, "auto": "auto"}[text] if text in ("all", "auto") else int(text)
+def _found_seeds(scan, photos, settings, session):
+    """Seeds found in photos, and what became of each photo."""
+    from ..matching import match_photos
+
+    matching = match_photos(scan, photos, settings, progress=session.progress, cancelled=session.cancelled)
+    session.warnings += matching.warnings
+    for photo in matching.photos:
+        session.console.print(f"{photo.name}: {photo.note}")
+    return matching.seeds, matching.photos
 
 
 def _load_seeds(arguments, session):

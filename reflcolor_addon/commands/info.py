@@ -12,16 +12,16 @@ VERSION = 1
 
 def add_arguments(parser):
     """Declare what ``info`` takes."""
-    parser.add_argument("scan", metavar="SCAN", type=Path, help="scan file: .ptx, .e57 or .scan.json")
+    parser.add_argument("input", metavar="SCAN", type=Path, help="scan file: .ptx, .e57 or .scan.json")
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
 
 
 def run(arguments, session):
     """Print a description of every scan in the file."""
-    scans = session.read_scans(arguments.scan)
+    scans = session.read_scans(arguments.input)
     descriptions = [describe(index, scan) for index, scan in enumerate(scans, 1)]
     if arguments.json:
-        document = {"format": FORMAT, "version": VERSION, "file": str(arguments.scan), "scans": descriptions}
+        document = {"format": FORMAT, "version": VERSION, "file": str(arguments.input), "scans": descriptions}
         session.console.print(json.dumps(document, indent=2, allow_nan=False))
     else:
         session.console.print("\n".join(_as_text(description) for description in descriptions))

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..blender_door import BlenderDoor
 from ..console import Console
 from ..errors import Cancelled, UsageError
 from ..readers import read_scans
@@ -18,10 +19,8 @@ class Session:
     console : Console
     cancelled : callable
         Whether the work should end.
-    scene_writer : callable or None
-        Writes what only Blender can write (see ``cli.main``); None without Blender.
-    blender : str or None
-        Blender's version; None without Blender.
+    blender : BlenderDoor or None
+        What only Blender can do; None without Blender.
     written : list of Path
         The results that are there, whole; for the message when a later one fails.
     warnings : list of str
@@ -30,10 +29,14 @@ class Session:
 
     console: Console
     cancelled: Callable[[], bool]
-    scene_writer: Callable | None = None
-    blender: str | None = None
+    blender: BlenderDoor | None = None
     written: list[Path] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+
+    @property
+    def blender_version(self):
+        """Blender's version; None without Blender."""
+        return None if self.blender is None else self.blender.version
 
     def progress(self, fraction, text):
         """Show progress; for work that can be told to end by nothing else, this is where it ends.

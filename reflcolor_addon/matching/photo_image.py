@@ -33,12 +33,11 @@ class PhotoImage:
         """
         import cv2
 
-        gray = cv2.cvtColor(self.rgb, cv2.COLOR_RGB2GRAY)
-        scale = max(1.0, max(gray.shape) / _LARGEST_SIDE)
+        rgb, scale = self.rgb, max(1.0, max(self.width, self.height) / _LARGEST_SIDE)
         if scale > 1:
             size = (max(1, round(self.width / scale)), max(1, round(self.height / scale)))
-            gray = cv2.resize(gray, size, interpolation=cv2.INTER_AREA)
-        levels = [(gray.astype(np.float32), scale)]
+            rgb = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
+        levels = [(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.float32), scale)]
         while min(levels[-1][0].shape) >= 32:
             levels.append((cv2.pyrDown(levels[-1][0]), levels[-1][1] * 2))
         return levels

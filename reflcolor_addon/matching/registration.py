@@ -89,6 +89,21 @@ def register(views, photo, *, step=lambda text: None):
     return best
 
 
+def confirmed(views, photo, model):
+    """Return the `Registration` of a model that is known roughly, refined and judged."""
+    rng = np.random.default_rng(0)
+    best = Registration(None, NO_EVIDENCE, "known")
+    for tone in TONES:
+        near, _ = refined(views, photo, model, tone, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng)
+        for start in (model, near):
+            candidate, proof = finely(views, photo, start, tone, rng)
+            if proof.strength > best.evidence.strength:
+                best = Registration(candidate, proof, "known")
+        if best.accepted:
+            break
+    return best
+
+
 def refined(views, photo, model, tone, levels, *, free, rng):
     """Return a model fitted level by level, and its `Evidence` on the last one."""
     for share, size, radius, blur, spread in levels:

@@ -26,7 +26,10 @@ def read_e57(path, *, progress=None, cancelled=None):
     Parameters and errors are those of `read_scans`; a file with none but unstructured scans is a ScanError.
     """
     check_header(path)
-    from pye57 import libe57
+    try:
+        from pye57 import libe57
+    except ImportError:
+        raise ScanError(f"{path.name}: E57 needs pye57, which this platform has not; export the scan as PTX") from None
 
     with native_errors(path):
         file = libe57.ImageFile(str(path), "r")

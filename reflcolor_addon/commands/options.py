@@ -1,0 +1,110 @@
+"""Options that several verbs share, and the settings that they make."""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+from ..settings import ALPHA_RANGE, BETA_RANGE, COLOR_SPACES, MATCHINGS, NEIGHBORS, PRESETS, Settings
+
+_SCAN_HELP = "which scan of the file: its name, or its index as info prints it, counted from 1"
+_PROPAGATION = ("alpha", "beta", "color_space", "neighbors", "nearest", "smoothing", "kriging")
+_MATCHING = (
+    ("slic_segments", int, "superpixels that the scan, and each photo, is divided into"),
+    ("slic_compactness", float, "of the superpixels; higher makes them squarer"),
+    ("slic_sigma", float, "pixels by which the image is smoothed before it is divided"),
+    ("hog_cell", int, "pixels of a cell of the descriptor"),
+    ("hog_block", int, "cells of a block of the descriptor"),
+    ("hog_orientations", int, "directions of the descriptor"),
+    ("hog_window", int, "pixels of the descriptor's window"),
+)
+_ALL = "all"
+
+
+def add_scan(parser):
+    """The scan file, and which scan of it."""
+    parser.add_argument("input", metavar="SCAN", type=Path, help="scan file: .ptx, .e57 or .scan.json")
+    parser.add_argument("--scan", dest="wanted", metavar="NAME_OR_INDEX", help=_SCAN_HELP)
+
+
+def add_photos(parser, help_text):
+    """Photos, any number after one option or after several."""
+    parser.add_argument("--photo", metavar="IMAGE", type=Path, nargs="+", action="extend", default=[], help=help_text)
+
+
+def add_propagation(parser):
+    """How colors spread from the seeds; what is not given is the preset's."""
+    default = Settings()
+    parser.add_argument(
+        "--preset", choices=tuple(PRESETS), default="Paper", help="where the settings start from (default %(default)s)"
+    )
+    parser.add_argument(
+        "--alpha",
+        type=float,
+        help="gain of the weights, {:g} to {:g} (Paper: {:g})".format(*ALPHA_RANGE, default.alpha),
+    )
+    parser.add_argument(
+        "--beta",
+        type=float,
+        help="gain of the range, {:g} to {:g}; 0 leaves the range out (Paper: {:g})".format(*BETA_RANGE, default.beta),
+    )
+    parser.add_argument(
+        "--color-space", choices=COLOR_SPACES, help=f"where colors are blended (Paper: {default.color_space})"
+    )
+    parser.add_argument(
+        "--neighbors",
+        type=int,
+        choices=NEIGHBORS,
+        help=f"pixels that a path may step to (Paper: {default.neighbors})",
+    )
+    parser.add_argument(
+        "--nearest",
+        type=_nearest,
+        metavar="K",
+        help='seeds that color a pixel: "all", a number for its nearest ones, or "auto": all where that is quick, '
+        "else as many as it takes to be close to that (Paper: auto)",
+    )
+    parser.add_argument("--smoothing", type=float, metavar="PIXELS", help="of the reflectance (Paper: 0)")
+    parser.add_argument("--kriging", type=float, metavar="SHARE", help="of kriging in the colors, 0 to 1 (Paper: 0)")
+
+
+def add_matching(parser):
+    """How seeds are found in photos."""
+    default = Settings()
+    parser.add_argument(
+        "--matching",
+        choices=MATCHINGS,
+        help=f"by a camera that is verified, or as the paper does it (default {default.matching})",
+    )
+    group = parser.add_argument_group("superpixels and descriptors")
+    for name, kind, help_text in _MATCHING:
+        option = f"--{name.replace('_', '-')}"
+        group.add_argument(option, type=kind, metavar="N", help=f"{help_text} (default {getattr(default, name):g})")
+
+
+def settings_of(arguments):
+    """Return the Settings that the options say; an option that was not given leaves the preset's value.
+
+    Raises
+    ------
+    SettingsError
+        If a value is out of its range.
+    """
+    preset = getattr(arguments, "preset", "Paper")
+    settings = Settings.preset(preset)
+    if settings.nearest is None:
+        # All seeds of a large scan can take minutes, so here the paper's exactness has to be asked for.
+        settings = replace(settings, nearest="auto")
+    names = (*_PROPAGATION, "matching", *(name for name, _, _ in _MATCHING))
+    given = {name: value for name in names if (value := getattr(arguments, name, None)) is not None}
+    if given.get("nearest") == _ALL:
+        given["nearest"] = None
+    return replace(settings, **given)
+
+
+def _nearest(text):
+    if text in (_ALL, "auto"):
+        return text
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f'expected "{_ALL}", "auto" or a whole number, found {text!r}') from None

@@ -1,0 +1,134 @@
+"""Chrominance estimated by kriging: regression on what the scan knows of every pixel.
+
+Surfaces of one material tend to have one color. Two pixels are likely to be of one material if they have a like
+reflectance and a like normal, and lie close together; a path between them, as the geodesic distance asks for, is not
+needed. Ordinary kriging (Matheron 1963; Gaussian process regression with a constant mean) takes
+
+    k(i, j) = exp(-|f_i - f_j|)
+
+as the covariance of chrominance, f being the features below, and estimates m + k(i, .) (K + N)^-1 (c - m). N is a
+diagonal of nuggets: the variance of a seed's color about that of its surroundings, as a share of the whole variance.
+The seeds themselves tell how large it is, because the error of estimating each from all others has a closed form.
+"""
+
+import numpy as np
+
+from .normals import surface_normals
+
+# What makes two pixels unlike: each of these is one unit of distance between their features.
+SCALES = {
+    # Of the scan's angular extent: the side of a square with the same spread of directions.
+    "direction": 0.5,
+    # Of the range 0..255.
+    "luminance": 0.5,
+    # Natural logarithm: a factor of 2 in range.
+    "log_range": 0.7,
+    # Opposite walls are 0.5 apart.
+    "normal": 4.0,
+}
+FEATURES = 8
+NUGGETS = (0.02, 0.04, 0.08, 0.16, 0.32)
+MAX_SEEDS = 8000
+"""The matrix of their covariances takes 0.5 GB."""
+
+# A seed whose error is this many times the median is noisy; its nugget grows with the excess, to the limit.
+_OUTLIER = 4.0
+_OUTLIER_GAIN, _OUTLIER_LIMIT = 0.1, 5.0
+# Seeds are left out one by one in groups of at most this many: the cost grows with the cube.
+_GROUP = 1000
+# Of the matrix of covariances between pixels and seeds that is held at once.
+_CHUNK_VALUES = 1 << 21
+
+
+def pixel_features(scan, luminance):
+    """Return the (H * W, 8) float32 features of all pixels, in units of likeness; zeros where not valid.
+
+    Parameters
+    ----------
+    scan : Scan
+    luminance : (H, W) float32
+        Normalized reflectance, 0..255.
+    """
+    valid = scan.valid
+    distance = np.maximum(scan.range, np.finfo(np.float32).tiny)
+    direction = scan.points / distance[..., None]
+    spread = direction[valid] - direction[valid].mean(axis=0)
+    # A square of side s has a mean squared distance from its center of s^2 / 6.
+    extent = max(np.sqrt(6 * np.mean(np.einsum("ij,ij->i", spread, spread))), 1e-6)
+    features = np.empty((*scan.shape, FEATURES), np.float32)
+    features[..., 0:3] = direction / (extent * SCALES["direction"])
+    features[..., 3] = luminance / (255 * SCALES["luminance"])
+    features[..., 4] = np.log(distance) / SCALES["log_range"]
+    features[..., 5:8] = surface_normals(scan.points, valid, wrap=scan.full_turn) / SCALES["normal"]
+    features[~valid] = 0
+    return features.reshape(-1, FEATURES)
+
+
+class Kriging:
+    """Fitted to seeds; estimates the chrominance of pixels.
+
+    Parameters
+    ----------
+    features : (S, 8) float
+        Of the seeds; at most `MAX_SEEDS`.
+    colors : (S, 2) float
+        Their chrominance.
+    """
+
+    def __init__(self, features, colors):
+        self._features = np.asarray(features, np.float64)
+        colors = np.asarray(colors, np.float64)
+        covariance = _covariance(self._features, self._features)
+        weights = np.linalg.solve(
+            covariance + np.diag(_nuggets(covariance, colors)), np.column_stack([np.ones(len(colors)), colors])
+        )
+        self._mean = weights[:, 1:].sum(axis=0) / weights[:, 0].sum()
+        self._weights = weights[:, 1:] - weights[:, :1] * self._mean
+
+    def chunks(self, count):
+        """Return slices that part ``count`` pixels so that each part fits well into memory."""
+        step = max(1, _CHUNK_VALUES // len(self._features))
+        return [slice(start, min(count, start + step)) for start in range(0, count, step)]
+
+    def estimate(self, features):
+        """Return the (N, 2) float64 chrominance of pixels with (N, 8) features."""
+        return _covariance(np.asarray(features, np.float64), self._features) @ self._weights + self._mean
+
+
+def _covariance(one, other):
+    """exp(-|f_i - f_j|) for (N, F) and (S, F) features: (N, S)."""
+    squared = one @ (-2 * other.T)
+    squared += np.einsum("ij,ij->i", one, one)[:, None]
+    squared += np.einsum("ij,ij->i", other, other)
+    # The difference of large numbers may fall below zero.
+    np.maximum(squared, 0, out=squared)
+    np.sqrt(squared, out=squared)
+    np.negative(squared, out=squared)
+    return np.exp(squared, out=squared)
+
+
+def _nuggets(covariance, colors):
+    """(S,) nuggets: the one of NUGGETS that foretells left-out seeds best, more for seeds that fit badly."""
+    count = len(colors)
+    groups = [np.arange(first, count, -(-count // _GROUP)) for first in range(-(-count // _GROUP))]
+    parts = [(covariance[np.ix_(group, group)], colors[group]) for group in groups]
+    errors = [[_left_out_errors(*part, nugget) for part in parts] for nugget in NUGGETS]
+    totals = [sum(np.sqrt(squared).sum() for squared, _ in nugget) for nugget in errors]
+    best = int(np.argmin(totals))
+    nuggets = np.empty(count)
+    for group, (squared, precision) in zip(groups, errors[best], strict=True):
+        # Relative to what the covariance alone lets expect.
+        error = np.sqrt(squared * precision)
+        median = np.median(error)
+        excess = (error / median / _OUTLIER) ** 2 - 1 if median > 0 else np.zeros(len(group))
+        nuggets[group] = NUGGETS[best] + np.clip(_OUTLIER_GAIN * excess, 0, _OUTLIER_LIMIT)
+    return nuggets
+
+
+def _left_out_errors(covariance, colors, nugget):
+    """(S,) squared errors of estimating each seed from all others, and (S,) reciprocal variances of these errors."""
+    inverse = np.linalg.inv(covariance + nugget * np.eye(len(colors)))
+    mean = (inverse @ colors).sum(axis=0) / inverse.sum()
+    precision = np.diag(inverse)
+    residual = inverse @ (colors - mean) / precision[:, None]
+    return np.einsum("ij,ij->i", residual, residual), precision

@@ -1,0 +1,74 @@
+"""Matches drawn side by side, as in the paper's figures 7a and 10a: the scan left, the photos right, a line per seed."""
+
+import numpy as np
+
+from .scan_image import pixel_steps, toned
+from .superpixels import sized
+
+_HEIGHT = 720
+_GAP = 8
+_MOST_LINES = 250
+_REASON_COLORS = {"pose": (60, 200, 90), "homography": (60, 160, 240), "appearance": (240, 180, 40), "hand": (240, 70, 200)}
+_PLAIN = (200, 200, 200)
+
+
+def draw_matches(scan, photos, seeds):
+    """Draw where each seed's color comes from.
+
+    Parameters
+    ----------
+    scan : Scan
+    photos : sequence of paths or of (H, W, 3) uint8 sRGB
+        As given to `match_seeds`.
+    seeds : Seeds
+
+    Returns
+    -------
+    (H, W, 3) uint8
+        The reflectance on square pixels with the seeds in their colors, the photos beside it, and lines between; green
+        for ``pose``, blue for ``homography``, orange for ``appearance``, magenta for ``hand``. Of very many seeds every
+        so manieth has a line.
+    """
+    import cv2
+
+    from .match import opened_photos
+
+    opened = opened_photos(photos)
+    own = _shown(scan)
+    panels = [own, *(sized(photo.rgb, max(photo.rgb.shape[:2]) * _HEIGHT / photo.height) for photo in opened)]
+    canvas = np.full((_HEIGHT, sum(p.shape[1] + _GAP for p in panels) - _GAP, 3), 24, np.uint8)
+    lefts, left = [], 0
+    for panel in panels:
+        height = min(_HEIGHT, panel.shape[0])
+        canvas[:height, left : left + panel.shape[1]] = panel[:height]
+        lefts.append(left)
+        left += panel.shape[1] + _GAP
+    places = {photo.name: (lefts[index + 1], photo) for index, photo in enumerate(opened)}
+    starts = np.column_stack([
+        (seeds.cols + 0.5) * own.shape[1] / scan.shape[1], (seeds.rows + 0.5) * _HEIGHT / scan.shape[0]
+    ]).reshape(-1, 2)
+    every = max(1, -(-len(seeds) // _MOST_LINES))
+    for index, (start, name, xy) in enumerate(zip(starts, seeds.photos, seeds.photo_xy, strict=True)):
+        if name in places and np.isfinite(xy).all() and index % every == 0:
+            left, photo = places[name]
+            end = (left + xy[0] * _HEIGHT / photo.height, xy[1] * _HEIGHT / photo.height)
+            color = _REASON_COLORS.get(seeds.reason[index], _PLAIN)
+            cv2.line(canvas, _whole(start), _whole(end), color, 1, cv2.LINE_AA)
+            cv2.circle(canvas, _whole(end), 3, color, -1, cv2.LINE_AA)
+    for start, rgb in zip(starts, seeds.rgb.tolist(), strict=True):
+        cv2.circle(canvas, _whole(start), 4, (0, 0, 0), -1, cv2.LINE_AA)
+        cv2.circle(canvas, _whole(start), 3, rgb, -1, cv2.LINE_AA)
+    return canvas
+
+
+def _shown(scan):
+    import cv2
+
+    vertical, horizontal = pixel_steps(scan)
+    width = max(1, round(_HEIGHT * scan.shape[1] * horizontal / (scan.shape[0] * vertical)))
+    gray = cv2.resize(toned(scan, "percentiles"), (min(width, 8 * _HEIGHT), _HEIGHT), interpolation=cv2.INTER_AREA)
+    return np.repeat(np.rint(gray).astype(np.uint8)[..., None], 3, axis=-1)
+
+
+def _whole(point):
+    return round(float(point[0])), round(float(point[1]))

@@ -1,0 +1,225 @@
+"""Method 2: from a scan, or all scans of a site, and photos to seeds."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import Cancelled, ImageError, SeedsError
+from ..image_files import read_image
+from ..seeds import Seeds
+from ..settings import Settings
+from . import site
+from .hog_matching import described_photo, described_scan, hog_matches, square_image
+from .photo_image import PhotoImage
+from .scan_image import toned
+
+_LEAST_SIDE = 16
+
+
+@dataclass(frozen=True, eq=False)
+class PhotoMatch:
+    """What became of one photo on one scan.
+
+    Parameters
+    ----------
+    name : str
+    verified : bool
+        Whether its camera was found and stood the test, or follows from pairs picked by hand.
+    model : Camera, GridHomography or None
+        In pixels of the photo as given.
+    reason : {"pose", "homography", "hand"} or None
+        What was verified.
+    note : str
+        One line for a person.
+    """
+
+    name: str
+    verified: bool
+    model: object
+    reason: str | None
+    note: str
+
+
+@dataclass(frozen=True, eq=False)
+class Matching:
+    """Seeds of one scan, and what became of each photo.
+
+    Parameters
+    ----------
+    seeds : Seeds
+        With ``photos``, ``photo_xy``, ``confidence`` and ``reason``.
+    photos : tuple of PhotoMatch
+    warnings : tuple of str
+        One line each, for a person; of a photo that could not be verified there is always one.
+    """
+
+    seeds: Seeds
+    photos: tuple[PhotoMatch, ...]
+    warnings: tuple[str, ...]
+
+
+def match_seeds(scan, photos, settings=None, *, hand=None, progress=None, cancelled=None):
+    """Find seeds in photos; see `match_photos`, which tells more.
+
+    Returns
+    -------
+    Seeds
+    """
+    return match_photos(scan, photos, settings, hand=hand, progress=progress, cancelled=cancelled).seeds
+
+
+def match_photos(scan, photos, settings=None, *, hand=None, progress=None, cancelled=None):
+    """Find seeds for one scan in photos: Method 2.
+
+    Parameters
+    ----------
+    scan : Scan
+    photos : sequence of paths or of (H, W, 3) uint8 sRGB
+        Not calibrated, from wherever they were taken. Arrays are called "photo 1", "photo 2" ...
+    settings : Settings, optional
+        ``matching="verified"``: each photo's camera is estimated and accepted only if it stands a test; an accepted
+        photo gives a seed in every superpixel that it really shows, the others get theirs by appearance.
+        ``matching="paper"``: as published, by the most similar superpixel.
+    hand : Seeds, optional
+        Seeds picked by a person: they stay as they are, and four or more with a point of a photo give its camera.
+    progress : callable, optional
+        Called as ``progress(fraction, text)`` with a fraction of 0 to 1.
+    cancelled : callable, optional
+        Asked now and then; when it returns True, the work ends.
+
+    Returns
+    -------
+    Matching
+
+    Raises
+    ------
+    SeedsError
+        If there is no photo, the scan has no return, or a seed of ``hand`` cannot be used.
+    ImageError
+        If a photo cannot be read or is smaller than 16 pixels a side.
+    Cancelled
+        If ``cancelled()`` returned True.
+    """
+    return match_site([scan], photos, settings, hand=[hand], progress=progress, cancelled=cancelled)[0]
+
+
+def match_site(scans, photos, settings=None, *, hand=None, progress=None, cancelled=None):
+    """Find seeds for all scans of a site in the same photos, with one exposure for all and one model of appearance.
+
+    Where the scans have poses, a photo verified on one scan is tried on the others where that puts it.
+
+    Parameters
+    ----------
+    scans : sequence of Scan
+    hand : sequence of Seeds or None, optional
+        For each scan.
+    photos, settings, progress, cancelled
+        As `match_photos`.
+
+    Returns
+    -------
+    list of Matching
+        One for each scan.
+
+    Raises
+    ------
+    SeedsError, ImageError, Cancelled
+        As `match_photos`.
+    """
+    settings = settings or Settings()
+    progress = progress or (lambda fraction, text: None)
+    cancelled = cancelled or (lambda: False)
+    hand = list(hand) if hand is not None else [None] * len(scans)
+    for scan in scans:
+        if not scan.valid.any():
+            raise SeedsError(f"{scan.name}: no pixel has a return, so nothing can be matched")
+    hand = [None if own is None or len(own) == 0 else own.placed_on(scan)[0] for own, scan in zip(hand, scans, strict=True)]
+    progress(0.0, "Opening the photos")
+    opened = opened_photos(photos)
+    if not opened:
+        raise SeedsError("no photo: give at least one")
+
+    def step(fraction, text):
+        if cancelled():
+            raise Cancelled
+        progress(fraction, text)
+
+    if settings.matching == "paper":
+        matchings = [_as_published(scan, opened, settings, step) for scan in scans]
+    else:
+        matchings = [
+            Matching(seeds, tuple(PhotoMatch(*found) for found in reports), tuple(warnings))
+            for seeds, reports, warnings in site.verified(scans, opened, hand, settings, step)
+        ]
+    progress(1.0, "Matched")
+    return [
+        matching if own is None else Matching(joined(own, matching.seeds), matching.photos, matching.warnings)
+        for matching, own in zip(matchings, hand, strict=True)
+    ]
+
+
+def opened_photos(photos):
+    """Return a `PhotoImage` for each photo, a path or an array.
+
+    Raises
+    ------
+    ImageError
+        If a photo cannot be read, or is too small.
+    """
+    if isinstance(photos, str | Path) or (isinstance(photos, np.ndarray) and photos.ndim == 3):
+        photos = [photos]
+    opened = []
+    for number, photo in enumerate(photos, 1):
+        if isinstance(photo, np.ndarray):
+            name, rgb = f"photo {number}", photo
+            if rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.dtype != np.uint8:
+                raise ImageError(f"{name}: expected (H, W, 3) uint8, found {rgb.shape} {rgb.dtype}")
+        else:
+            name, rgb = Path(photo).name, read_image(photo)
+        if min(rgb.shape[:2]) < _LEAST_SIDE:
+            raise ImageError(
+                f"{name}: has {rgb.shape[1]} x {rgb.shape[0]} pixels, expected at least {_LEAST_SIDE} on each side"
+            )
+        opened.append(PhotoImage(name, rgb))
+    return opened
+
+
+def joined(hand, found):
+    """Return seeds picked by hand followed by found ones, of which none lies on a pixel that was picked."""
+    picked = set(zip(hand.rows.tolist(), hand.cols.tolist(), strict=True))
+    free = [k for k, place in enumerate(zip(found.rows.tolist(), found.cols.tolist(), strict=True)) if place not in picked]
+    return Seeds(
+        rows=np.concatenate([hand.rows, found.rows[free]]),
+        cols=np.concatenate([hand.cols, found.cols[free]]),
+        rgb=np.concatenate([hand.rgb, found.rgb[free]]),
+        photos=(*hand.photos, *(found.photos[k] for k in free)),
+        photo_xy=np.concatenate([hand.photo_xy, found.photo_xy[free]]),
+        confidence=np.concatenate([np.ones(len(hand)), found.confidence[free]]),
+        reason=("hand",) * len(hand) + tuple(found.reason[k] for k in free),
+    )
+
+
+def _as_published(scan, photos, settings, step):
+    step(0.05, "Superpixels of the scan")
+    image = square_image(scan, toned(scan, "percentiles"))
+    own = described_scan(scan, image, settings)
+    others = []
+    for index, photo in enumerate(photos):
+        step(0.3 + 0.5 * index / len(photos), f"Superpixels of {photo.name}")
+        others.append(described_photo(photo.rgb, max(image.shape), settings))
+    step(0.85, "Comparing superpixels")
+    matches = hog_matches(own, others)
+    rows, cols = own.superpixels.centers.T
+    xy = matches.xy * np.array([(photo.width, photo.height) for photo in photos])[matches.photo]
+    seeds = Seeds(
+        rows=image.rows[rows],
+        cols=image.cols[cols],
+        rgb=matches.rgb,
+        photos=tuple(photos[index].name for index in matches.photo),
+        photo_xy=xy,
+        confidence=matches.similarity,
+        reason=("appearance",) * len(rows),
+    )
+    reports = tuple(PhotoMatch(photo.name, False, None, None, "matched by appearance, as published") for photo in photos)
+    return Matching(seeds, reports, ())

@@ -1,0 +1,96 @@
+"""SLIC superpixels of the scan and of photos, on square pixels."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .edges import filled
+
+LONGEST_SIDE = 1200
+"""Images are brought to at most so many pixels a side: SLIC's time goes with them, and a segment has hundreds anyway."""
+
+
+@dataclass(frozen=True, eq=False)
+class Superpixels:
+    """Segments of an image.
+
+    labels : (h, w) int32
+        0 to count - 1; -1 where nothing was measured.
+    centers : (count, 2) int
+        Row and column of the pixel of each segment that is nearest to its middle.
+    """
+
+    labels: np.ndarray
+    centers: np.ndarray
+
+    def __len__(self):
+        return len(self.centers)
+
+
+def superpixels(image, valid, *, segments, compactness, sigma):
+    """Divide an image into segments (SLIC of Achanta et al. 2012).
+
+    Parameters
+    ----------
+    image : (h, w) or (h, w, 3) float32
+        Gray or sRGB, 0..255.
+    valid : (h, w) bool
+        Segments are kept where this is True.
+    segments : int
+        About how many are wanted on the valid part.
+    compactness, sigma : float
+        As scikit-image has them, for intensities of 0..1 and CIELAB.
+
+    Returns
+    -------
+    Superpixels
+        Not a single one where nothing is valid.
+    """
+    from skimage.segmentation import slic
+
+    pixels = int(np.count_nonzero(valid))
+    if pixels == 0:
+        return Superpixels(np.full(valid.shape, -1, np.int32), np.zeros((0, 2), int))
+    if segments >= pixels:
+        labels = np.full(valid.shape, -1, np.int32)
+        labels[valid] = np.arange(pixels)
+        return Superpixels(labels, np.argwhere(valid))
+    wanted = int(np.clip(round(segments * valid.size / pixels), 1, valid.size))
+    source = filled(image, valid) if image.ndim == 2 else image
+    if wanted == 1:
+        labels = np.zeros(valid.shape, int)
+    else:
+        labels = slic(
+            np.clip(source / 255.0, 0, 1),
+            n_segments=wanted,
+            compactness=compactness,
+            sigma=sigma,
+            start_label=0,
+            channel_axis=None if image.ndim == 2 else -1,
+        )
+    kept, inverse = np.unique(labels[valid], return_inverse=True)
+    numbered = np.full(valid.shape, -1, np.int32)
+    numbered[valid] = inverse.reshape(-1)
+    return Superpixels(numbered, nearest_to_middles(numbered, len(kept)))
+
+
+def nearest_to_middles(labels, count):
+    """Return the (count, 2) row and column of the pixel of each label that is nearest to the mean of its pixels."""
+    rows, cols = np.nonzero(labels >= 0)
+    label = labels[rows, cols]
+    number = np.maximum(np.bincount(label, minlength=count), 1)
+    middle = [(np.bincount(label, values, count) / number)[label] for values in (rows, cols)]
+    squared = (rows - middle[0]) ** 2 + (cols - middle[1]) ** 2
+    # The first of each label in this order is the nearest.
+    order = np.lexsort((squared, label))
+    first = order[np.searchsorted(label[order], np.arange(count))]
+    return np.column_stack([rows[first], cols[first]])
+
+
+def sized(image, longest):
+    """Return an image brought to a longest side of pixels, averaged where it gets smaller."""
+    import cv2
+
+    scale = longest / max(image.shape[:2])
+    size = tuple(max(1, round(side * scale)) for side in image.shape[1::-1])
+    return cv2.resize(image, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
