@@ -6,7 +6,7 @@ from ..reflcolor_addon.colorize import colorize
 from . import polls
 from .images import write_image
 from .jobs import JobOperator
-from .properties import ColorizeSettings, core_settings
+from .properties import COLORIZE_NAMES, ColorizeSettings, core_settings
 from .scan_object import COLORIZED, add_colors, grid_indices, scan_of, show_colors
 from .seed_list import seeds_of
 
@@ -28,7 +28,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
         # A name, not the object: it may be gone, or be another one after an undo, when the work is done.
         self._object_name = obj.name
         scan, seeds = scan_of(obj), seeds_of(obj)
-        settings = core_settings(self, context.scene.reflcolor)
+        settings = core_settings(self, context.scene.reflcolor, COLORIZE_NAMES)
         return lambda progress, cancelled: colorize(scan, seeds, settings, progress=progress, cancelled=cancelled)
 
     def finish(self, context, result):

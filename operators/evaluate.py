@@ -12,10 +12,12 @@ from .jobs import JobOperator
 from .scan_object import COLORIZED, SCANNED, add_values, colors_of, grid_indices
 
 ERROR = "error"
+# Where no true color is known.
+UNKNOWN = -1.0
 
 
 class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
-    """Compare the colors with those of the scan itself or of an image, and store each vertex's CIEDE2000 as "error\""""
+    """Compare the colors with those of the scan itself or of an image, and store the difference at every vertex"""
 
     bl_idname = "reflcolor.evaluate"
     bl_label = "Evaluate Colors"
@@ -24,7 +26,8 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
 
     truth: StringProperty(
         name="True Colors",
-        description="Image with one pixel per pixel of the scan; if empty, the colors that came with the scan",
+        description="Image with one pixel per pixel of the scan; by default the one chosen for the scan, or the colors "
+        "that came with it",
     )
 
     @classmethod
@@ -34,14 +37,22 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
     def prepare(self, context):
         obj = polls.scan_object(context)
         self._object_name = obj.name
-        rows, cols = grid_indices(obj)
-        rgb = colors_of(obj, COLORIZED)
-        truth = self._image_colors(obj)[rows, cols] if self.truth else _scanned_colors(obj)
-        # Black is what scanners write where they saw no color.
-        known = np.ones(len(rgb), bool) if self.truth else truth.any(axis=-1)
-        # The core takes grids; the vertices are one of a single row.
-        grids = rgb[None], truth[None], known[None]
-        return lambda progress, cancelled: (evaluate(*grids), error_map(*grids)[0])
+        place = grid_indices(obj)
+        shape = obj.reflcolor.rows, obj.reflcolor.cols
+        rgb, known = np.zeros((*shape, 3), np.uint8), np.zeros(shape, bool)
+        rgb[place] = colors_of(obj, COLORIZED)
+        known[place] = True
+        image = self._image(obj)
+        if image is not None:
+            truth = _pixels(image, obj)
+        elif SCANNED in obj.data.color_attributes:
+            truth = np.zeros_like(rgb)
+            truth[place] = colors_of(obj, SCANNED)
+            # Black is what scanners write where they saw no color.
+            known &= truth.any(axis=-1)
+        else:
+            raise ScanError(f"{obj.name}: the scan came without colors; choose an image of its true colors")
+        return lambda progress, cancelled: (evaluate(rgb, truth, known), error_map(rgb, truth, known)[place])
 
     def finish(self, context, result):
         figures, errors = result
@@ -49,7 +60,7 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
         if obj is None or len(obj.data.vertices) != len(errors):
             self.report({"WARNING"}, f"{self._object_name} is gone; its errors were dropped")
             return
-        add_values(obj, ERROR, np.nan_to_num(errors, nan=-1.0))
+        add_values(obj, ERROR, np.nan_to_num(errors, nan=UNKNOWN))
         mean, percentile = (figures["color_alone"][f"ciede2000_{name}"] for name in ("mean", "p95"))
         self.report(
             {"INFO"},
@@ -57,22 +68,23 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
             f"{figures['pixels']} vertices (luminance apart)",
         )
 
-    def _image_colors(self, obj):
-        image, state = bpy.data.images.get(self.truth), obj.reflcolor
+    def _image(self, obj):
+        if not self.truth:
+            return obj.reflcolor.truth_image
+        image = bpy.data.images.get(self.truth)
         if image is None:
             raise ScanError(f"there is no image {self.truth}; open it first")
-        if tuple(image.size) != (state.cols, state.rows):
-            raise ScanError(
-                f"{self.truth}: is {image.size[0]} x {image.size[1]} pixels, but the scan {obj.name} has {state.cols} "
-                f"columns x {state.rows} rows; they must be the same"
-            )
-        return read_image(image)
+        return image
 
 
-def _scanned_colors(obj):
-    if SCANNED not in obj.data.color_attributes:
-        raise ScanError(f"{obj.name}: the scan came without colors; choose an image of its true colors")
-    return colors_of(obj, SCANNED)
+def _pixels(image, obj):
+    state, (width, height) = obj.reflcolor, image.size
+    if (width, height) != (state.cols, state.rows):
+        raise ScanError(
+            f"{image.name}: is {width} x {height} pixels, but the scan {obj.name} has {state.cols} columns x "
+            f"{state.rows} rows; they must be the same"
+        )
+    return read_image(image)
 
 
 classes = (REFLCOLOR_OT_evaluate,)

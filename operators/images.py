@@ -3,6 +3,8 @@
 import bpy
 import numpy as np
 
+from ..reflcolor_addon.virtual_camera import linear_to_srgb8
+
 
 def write_image(image, name, pixels, *, is_data):
     """Put pixels into an image and keep it in the .blend; ``image`` is replaced in place, or made if None.
@@ -36,6 +38,17 @@ def write_image(image, name, pixels, *, is_data):
     return image
 
 
+def read_image(image):
+    """Return the pixels of an image that can be read as (H, W, 3) uint8 sRGB, row 0 at the top."""
+    width, height = image.size
+    pixels = np.empty(width * height * image.channels, np.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(height, width, image.channels)[::-1]
+    rgb = pixels[..., :3] if image.channels >= 3 else np.repeat(pixels[..., :1], 3, axis=-1)
+    # Blender holds images of more than 8 bits as linear light.
+    return linear_to_srgb8(rgb) if image.is_float else np.rint(rgb * 255).astype(np.uint8)
+
+
 def read_pixel(image, x, y):
     """Return the (r, g, b) of 0..1, as stored, of the image's pixel that contains a point measured from the top left.
 
@@ -47,6 +60,17 @@ def read_pixel(image, x, y):
     column, row = min(int(x), width - 1), height - 1 - min(int(y), height - 1)
     start = (row * width + column) * image.channels
     return tuple(image.pixels[start : start + 3])
+
+
+def read_pixels(image):
+    """Return an image as (H, W, 3) uint8, as stored, row 0 at the top; None where it cannot be read."""
+    width, height = image.size
+    if not image.has_data or not width or image.channels < 3:
+        return None
+    stored = np.empty(width * height * image.channels, np.float32)
+    image.pixels.foreach_get(stored)
+    pixels = stored.reshape(height, width, image.channels)[::-1, :, :3]
+    return np.rint(np.clip(pixels, 0, 1) * 255).astype(np.uint8)
 
 
 def show_image(context, image):

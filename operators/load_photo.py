@@ -26,7 +26,9 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
         pixels = read_image(path)
         # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
         image = write_image(None, path.name, pixels, is_data=False)
-        context.scene.reflcolor.photo = image
+        settings = context.scene.reflcolor
+        settings.photos.add().image = image
+        settings.active_photo = len(settings.photos) - 1
         show_image(context, image)
         self.report({"INFO"}, f"Loaded {path.name}: {image.size[0]} x {image.size[1]} pixels")
         return {"FINISHED"}

@@ -1,5 +1,7 @@
 """When an operator can run, and what to do when it cannot."""
 
+from .scan_object import COLORIZED
+
 
 def has_scan(cls, context):
     """A scan's object is active."""
@@ -15,6 +17,24 @@ def has_seeds(cls, context):
         return False
     if not scan_object(context).reflcolor.seeds:
         cls.poll_message_set("Add a seed first")
+        return False
+    return True
+
+
+def has_colors(cls, context):
+    """A scan's object is active and was colorized."""
+    if not has_scan(cls, context):
+        return False
+    if COLORIZED not in scan_object(context).data.color_attributes:
+        cls.poll_message_set("Colorize the scan first")
+        return False
+    return True
+
+
+def has_photos(cls, context):
+    """There is a photo on the list."""
+    if not context.scene.reflcolor.photos:
+        cls.poll_message_set("Load a photo first")
         return False
     return True
 

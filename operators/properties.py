@@ -26,6 +26,26 @@ class ReflcolorSeed(bpy.types.PropertyGroup):
     photo_xy: FloatVectorProperty(
         name="Point", description="Place in the photo, in pixels from its top left corner", size=2
     )
+    reason: EnumProperty(
+        name="Found By",
+        description="How the seed came by its color",
+        items=(
+            ("hand", "Hand", "Picked by a person"),
+            ("pose", "Camera", "Where a photo's verified camera saw the pixel"),
+            ("homography", "Homography", "Where a verified photo shows the pixel"),
+            ("appearance", "Appearance", "By likeness with what a photo shows"),
+        ),
+    )
+    confidence: FloatProperty(
+        name="Confidence", description="How sure the color is", subtype="FACTOR", default=1, min=0, max=1
+    )
+
+
+class ReflcolorPhoto(bpy.types.PropertyGroup):
+    """A photo that colors are taken from"""
+
+    image: PointerProperty(name="Image", type=bpy.types.Image)
+    note: StringProperty(name="Note", description="What became of the photo when it was matched")
 
 
 class ReflcolorScan(bpy.types.PropertyGroup):
@@ -39,6 +59,13 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     reflectance_image: PointerProperty(name="Reflectance Image", type=bpy.types.Image)
     range_image: PointerProperty(name="Range Image", type=bpy.types.Image)
     colorized_image: PointerProperty(name="Colorized Image", type=bpy.types.Image)
+    matches_image: PointerProperty(name="Matches", type=bpy.types.Image)
+    truth_image: PointerProperty(
+        name="True Colors",
+        description="Image with one pixel per pixel of the scan, to compare the colors with; "
+        "if empty, the colors that came with the scan",
+        type=bpy.types.Image,
+    )
 
 
 _PAPER = settings.Settings()
@@ -90,7 +117,6 @@ class ColorizeSettings:
         items=_NEIGHBOR_ITEMS,
         default=str(_PAPER.neighbors),
     )
-
     blend: EnumProperty(
         name="Blend",
         description="Which seeds color a pixel",
@@ -105,27 +131,112 @@ class ColorizeSettings:
         max=settings.MAX_NEAREST,
         soft_max=64,
     )
-
-
-SETTING_NAMES = tuple(ColorizeSettings.__annotations__)
-
-
-class ReflcolorSettings(ColorizeSettings, bpy.types.PropertyGroup):
-    """Settings of the next colorization in this scene"""
-
-    photo: PointerProperty(
-        name="Photo", description="Photo that colors are taken from; any camera, any place", type=bpy.types.Image
+    smoothing: FloatProperty(
+        name="Smoothing",
+        description="Pixels by which the reflectance is smoothed before distances are measured on it; not in the paper",
+        default=_PAPER.smoothing,
+        min=0,
+        max=settings.MAX_SMOOTHING,
+        soft_max=4,
+    )
+    kriging: FloatProperty(
+        name="Kriging",
+        description="Share of a statistical estimate from position, surface and reflectance; not in the paper",
+        subtype="FACTOR",
+        default=_PAPER.kriging,
+        min=0,
+        max=1,
     )
 
 
-def core_settings(holder, fallback=None):
+class MatchSettings:
+    """The settings of the search for seeds in photos, as properties of whatever holds them."""
+
+    matching: EnumProperty(
+        name="Matching",
+        description="How seeds are found in photos",
+        items=(
+            ("verified", "Verified", "By each photo's camera, accepted only if it stands a test; else by appearance"),
+            ("paper", "Paper", "By the most similar superpixels, as published; often wrong on real scans"),
+        ),
+        default=_PAPER.matching,
+    )
+    slic_segments: IntProperty(
+        name="Superpixels",
+        description="Superpixels that the scan, and each photo, is divided into; there is one seed in each at most",
+        default=_PAPER.slic_segments,
+        min=1,
+        max=20_000,
+        soft_max=2000,
+    )
+    slic_compactness: FloatProperty(
+        name="Compactness",
+        description="How square superpixels are; less lets them follow edges",
+        default=_PAPER.slic_compactness,
+        min=0.001,
+        max=100,
+        precision=3,
+    )
+    slic_sigma: FloatProperty(
+        name="Sigma",
+        description="Pixels by which the image is smoothed before it is divided",
+        default=_PAPER.slic_sigma,
+        min=0,
+        max=20,
+    )
+    hog_cell: IntProperty(
+        name="Cell", description="Pixels of a cell of the descriptor", default=_PAPER.hog_cell, min=2, max=64
+    )
+    hog_block: IntProperty(
+        name="Block", description="Cells of a block of the descriptor", default=_PAPER.hog_block, min=1, max=8
+    )
+    hog_orientations: IntProperty(
+        name="Orientations",
+        description="Directions that the descriptor tells apart",
+        default=_PAPER.hog_orientations,
+        min=2,
+        max=36,
+    )
+    hog_window: IntProperty(
+        name="Window",
+        description="Pixels of the descriptor's window around a superpixel's center",
+        default=_PAPER.hog_window,
+        min=2,
+        max=256,
+    )
+
+
+COLORIZE_NAMES = tuple(ColorizeSettings.__annotations__)
+MATCH_NAMES = tuple(MatchSettings.__annotations__)
+
+
+class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup):
+    """Settings of the next colorization in this scene"""
+
+    photos: CollectionProperty(name="Photos", type=ReflcolorPhoto)
+    active_photo: IntProperty(name="Active Photo", description="Photo that is selected in the list")
+
+
+def core_settings(holder, fallback, names):
     """Return the core's Settings from properties; what is not set on ``holder`` is taken from ``fallback``."""
     chosen = {}
-    for name in SETTING_NAMES:
-        source = holder if fallback is None or holder.properties.is_property_set(name) else fallback
+    for name in names:
+        source = holder if holder.properties.is_property_set(name) else fallback
         chosen[name] = getattr(source, name)
-    nearest = {"auto": "auto", "all": None, "nearest": chosen["nearest"]}[chosen.pop("blend")]
-    return settings.Settings(**chosen | {"neighbors": int(chosen["neighbors"]), "nearest": nearest})
+    if "blend" in chosen:
+        chosen["nearest"] = {"auto": "auto", "all": None, "nearest": chosen["nearest"]}[chosen.pop("blend")]
+        chosen["neighbors"] = int(chosen["neighbors"])
+    return settings.Settings(**chosen)
 
 
-classes = (ReflcolorSeed, ReflcolorScan, ReflcolorSettings)
+def take_over(holder, chosen):
+    """Set properties to the core's Settings; the paper's exact blending becomes Automatic, which is it where quick."""
+    for name, value in chosen.as_dict().items():
+        if name == "nearest":
+            holder.blend = "nearest" if isinstance(value, int) else "auto"
+            holder.nearest = value if isinstance(value, int) else holder.nearest
+        elif name in COLORIZE_NAMES:
+            setattr(holder, name, str(value) if name == "neighbors" else value)
+
+
+classes = (ReflcolorSeed, ReflcolorPhoto, ReflcolorScan, ReflcolorSettings)

@@ -117,6 +117,34 @@ def add_colors(obj, name, rgb):
     mesh.update()
 
 
+def colors_of(obj, name):
+    """Return (N, 3) uint8 sRGB, one per vertex, of the color attribute of that name.
+
+    Raises
+    ------
+    ScanError
+        If it is there no more, or has other than one color per vertex.
+    """
+    attribute = obj.data.color_attributes.get(name)
+    if attribute is None or attribute.domain != "POINT":
+        raise ScanError(f"{obj.name}: the mesh has no color attribute {name} with one color per vertex")
+    rgba = np.empty(4 * len(attribute.data), np.float32)
+    attribute.data.foreach_get("color_srgb", rgba)
+    return np.rint(np.clip(rgba.reshape(-1, 4)[:, :3], 0, 1) * 255).astype(np.uint8)
+
+
+def add_values(obj, name, values):
+    """Write (N,) float32, one per vertex, as an attribute of that name; one that is there is replaced."""
+    attribute = obj.data.attributes.get(name)
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
+        obj.data.attributes.remove(attribute)
+        attribute = None
+    if attribute is None:
+        attribute = obj.data.attributes.new(name, "FLOAT", "POINT")
+    attribute.data.foreach_set("value", np.ascontiguousarray(values, np.float32))
+    obj.data.update()
+
+
 def show_colors(obj, name):
     """Make a color attribute the one that is seen: in viewports, renders and exports."""
     mesh = obj.data

@@ -38,15 +38,17 @@ class SeedChoice:
         return index
 
 
-def seeds_of(obj):
-    """Return the object's seeds as the core's Seeds."""
-    seeds = obj.reflcolor.seeds
+def seeds_of(obj, *, by_hand=False):
+    """Return the object's seeds as the core's Seeds; with ``by_hand``, only those that a person picked."""
+    seeds = [seed for seed in obj.reflcolor.seeds if not by_hand or seed.reason == "hand"]
     return Seeds(
         rows=np.array([seed.row for seed in seeds], np.int64),
         cols=np.array([seed.col for seed in seeds], np.int64),
         rgb=np.rint(np.array([seed.color[:] for seed in seeds]).reshape(-1, 3) * 255).astype(np.uint8),
         photos=[seed.photo.name if seed.photo else None for seed in seeds],
         photo_xy=[seed.photo_xy[:] if seed.photo else (np.nan, np.nan) for seed in seeds],
+        confidence=[np.nan if seed.reason == "hand" else seed.confidence for seed in seeds],
+        reason=[None if seed.reason == "hand" else seed.reason for seed in seeds],
     )
 
 
@@ -62,8 +64,10 @@ def append_seed(obj, row, col, rgb, photo=None, photo_xy=(0.0, 0.0)):
 
 def append_seeds(obj, seeds):
     """Add the core's Seeds to the object; photos are found by name among the .blend's images."""
-    for row, col, rgb, photo, xy in zip(
-        seeds.rows.tolist(), seeds.cols.tolist(), (seeds.rgb / 255).tolist(), seeds.photos, seeds.photo_xy, strict=True
+    columns = (seeds.rows, seeds.cols, seeds.rgb / 255, np.nan_to_num(seeds.photo_xy), seeds.confidence)
+    for row, col, rgb, xy, confidence, photo, reason in zip(
+        *(column.tolist() for column in columns), seeds.photos, seeds.reason, strict=True
     ):
-        image = bpy.data.images.get(photo) if photo else None
-        append_seed(obj, row, col, rgb, image, tuple(np.nan_to_num(xy)))
+        seed = append_seed(obj, row, col, rgb, bpy.data.images.get(photo) if photo else None, xy)
+        seed.reason = reason or "hand"
+        seed.confidence = 1.0 if np.isnan(confidence) else confidence

@@ -3,6 +3,7 @@
 import bpy
 
 from ..operators import jobs, polls
+from ..reflcolor_addon.settings import PRESETS
 
 
 class _Step:
@@ -29,6 +30,16 @@ class REFLCOLOR_UL_seeds(bpy.types.UIList):
             row.label(text="", icon="IMAGE_DATA")
 
 
+class REFLCOLOR_UL_photos(bpy.types.UIList):
+    """Photos that colors are taken from, with what became of them"""
+
+    def draw_item(self, _context, layout, _data, photo, _icon, _active_data, _active_property):
+        if photo.image is None:
+            layout.label(text="Deleted image", icon="ERROR")
+            return
+        layout.label(text=photo.image.name, icon="IMAGE_DATA", translate=False)
+
+
 class REFLCOLOR_PT_scan(_Step, bpy.types.Panel):
     bl_label = "1. Scan"
 
@@ -46,9 +57,17 @@ class REFLCOLOR_PT_images(_Step, bpy.types.Panel):
     bl_label = "2. Images"
 
     def draw_step(self, context, layout, obj):
+        settings = context.scene.reflcolor
         layout.operator("reflcolor.open_reflectance", icon="IMAGE_REFERENCE")
-        layout.operator("reflcolor.load_photo", icon="FILE_IMAGE")
-        layout.prop(context.scene.reflcolor, "photo")
+        row = layout.row()
+        row.template_list("REFLCOLOR_UL_photos", "", settings, "photos", settings, "active_photo", rows=2)
+        buttons = row.column(align=True)
+        buttons.operator("reflcolor.load_photo", text="", icon="ADD")
+        buttons.operator("reflcolor.remove_photo", text="", icon="REMOVE")
+        if settings.active_photo < len(settings.photos) and settings.photos[settings.active_photo].note:
+            layout.label(text=settings.photos[settings.active_photo].note, icon="INFO", translate=False)
+        elif not settings.photos:
+            layout.operator("reflcolor.load_photo", icon="FILE_IMAGE")
 
 
 class REFLCOLOR_PT_seeds(_Step, bpy.types.Panel):
@@ -72,18 +91,47 @@ class REFLCOLOR_PT_seeds(_Step, bpy.types.Panel):
         row.operator("reflcolor.save_seeds", icon="FILE_TICK")
 
 
+class REFLCOLOR_PT_match(_Step, bpy.types.Panel):
+    bl_label = "Find in Photos"
+    bl_parent_id = "REFLCOLOR_PT_seeds"
+
+    def draw_step(self, context, layout, obj):
+        settings = context.scene.reflcolor
+        layout.prop(settings, "matching")
+        layout.operator("reflcolor.match_photos", icon="VIEWZOOM")
+        if obj is not None and settings.photos:
+            pairs = sum(seed.reason == "hand" and seed.photo is not None for seed in obj.reflcolor.seeds)
+            column = layout.column(align=True)
+            column.label(text="If a photo is not recognized, add four to six", icon="INFO")
+            column.label(text=f"seeds with a photo point ({pairs} so far)", icon="BLANK1")
+
+
+class REFLCOLOR_PT_descriptors(_Step, bpy.types.Panel):
+    bl_label = "Superpixels and Descriptors"
+    bl_parent_id = "REFLCOLOR_PT_match"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_step(self, context, layout, _obj):
+        for names in (
+            ("slic_segments", "slic_compactness", "slic_sigma"),
+            ("hog_cell", "hog_block", "hog_orientations", "hog_window"),
+        ):
+            column = layout.column(align=True)
+            for name in names:
+                column.prop(context.scene.reflcolor, name)
+
+
 class REFLCOLOR_PT_colorize(_Step, bpy.types.Panel):
     bl_label = "4. Colorize"
 
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor
+        row = layout.row(align=True)
+        for preset in PRESETS:
+            row.operator("reflcolor.apply_preset", text=preset).preset = preset
         column = layout.column()
-        for name in ("alpha", "beta", "color_space"):
-            column.prop(settings, name)
-        column.row().prop(settings, "neighbors", expand=True)
-        column.prop(settings, "blend")
-        if settings.blend == "nearest":
-            column.prop(settings, "nearest")
+        column.prop(settings, "alpha")
+        column.prop(settings, "beta")
         job = jobs.running()
         if job is not None:
             layout.progress(factor=job.fraction, text="Cancelling" if job.stopping else job.name)
@@ -98,4 +146,23 @@ class REFLCOLOR_PT_colorize(_Step, bpy.types.Panel):
             layout.label(text="Needs seeds", icon="INFO")
 
 
-classes = (REFLCOLOR_UL_seeds, REFLCOLOR_PT_scan, REFLCOLOR_PT_images, REFLCOLOR_PT_seeds, REFLCOLOR_PT_colorize)
+class REFLCOLOR_PT_evaluate(_Step, bpy.types.Panel):
+    bl_label = "5. Evaluate"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_step(self, context, layout, obj):
+        if obj is None:
+            layout.label(text="Needs a scan", icon="INFO")
+            return
+        layout.prop(obj.reflcolor, "truth_image")
+        layout.operator("reflcolor.evaluate", icon="VIEWZOOM")
+
+
+classes = (
+    REFLCOLOR_UL_seeds,
+    REFLCOLOR_PT_scan,
+    REFLCOLOR_PT_images,
+    REFLCOLOR_PT_seeds,
+    REFLCOLOR_PT_colorize,
+    REFLCOLOR_PT_evaluate,
+)

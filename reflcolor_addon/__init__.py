@@ -8,6 +8,7 @@ from .colorization import Colorization
 from .colorize import colorize
 from .colorizer import Colorizer
 from .errors import Cancelled, ImageError, OutputError, ReflcolorError, ScanError, SeedsError, SettingsError
+from .evaluation import evaluate
 from .geodesic import geodesic_distances
 from .readers import read_scans
 from .scan import Scan
@@ -28,6 +29,7 @@ __all__ = [
     "Settings",
     "SettingsError",
     "colorize",
+    "evaluate",
     "geodesic_distances",
     "read_scans",
 ]

@@ -51,12 +51,11 @@ def pixel_features(scan, luminance):
     """
     valid = scan.valid
     distance = np.maximum(scan.range, np.finfo(np.float32).tiny)
-    direction = scan.points / distance[..., None]
-    spread = direction[valid] - direction[valid].mean(axis=0)
-    # A square of side s has a mean squared distance from its center of s^2 / 6.
-    extent = max(np.sqrt(6 * np.mean(np.einsum("ij,ij->i", spread, spread))), 1e-6)
     features = np.empty((*scan.shape, FEATURES), np.float32)
-    features[..., 0:3] = direction / (extent * SCALES["direction"])
+    direction = np.divide(scan.points, distance[..., None], out=features[..., 0:3], casting="same_kind")
+    # Of unit vectors; and a square of side s has a mean squared distance from its center of s^2 / 6.
+    variance = 1 - np.sum(direction[valid].mean(axis=0, dtype=np.float64) ** 2)
+    direction /= max(np.sqrt(6 * max(variance, 0)), 1e-6) * SCALES["direction"]
     features[..., 3] = luminance / (255 * SCALES["luminance"])
     features[..., 4] = np.log(distance) / SCALES["log_range"]
     features[..., 5:8] = surface_normals(scan.points, valid, wrap=scan.full_turn) / SCALES["normal"]

@@ -2,6 +2,7 @@
 
 import json
 import struct
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -169,7 +170,9 @@ def test_seeds_saved_and_loaded_are_the_same(seeded, tmp_path):
     assert json.loads(path.read_text())["seeds"][0] == {"row": 0, "col": 0, "rgb": [200, 80, 40]}
     seeded.ops.reflcolor.clear_seeds()
     seeded.ops.reflcolor.load_seeds(filepath=str(path))
-    colors = [tuple(round(value * 255) for value in seed.color) for seed in seeded.context.active_object.reflcolor.seeds]
+    colors = [
+        tuple(round(value * 255) for value in seed.color) for seed in seeded.context.active_object.reflcolor.seeds
+    ]
     assert seeds_in(seeded) == list(PLACES) and tuple(colors) == COLORS
 
 
@@ -177,7 +180,7 @@ def test_a_photo_gives_a_seed_its_color(wall, tmp_path):
     photo = np.random.default_rng(0).integers(0, 256, (30, 40, 3), np.uint8)
     cv2.imwrite(str(tmp_path / "view.png"), photo[..., ::-1])
     wall.ops.reflcolor.load_photo(filepath=str(tmp_path / "view.png"))
-    image = wall.context.scene.reflcolor.photo
+    image = wall.context.scene.reflcolor.photos[0].image
     wall.ops.reflcolor.add_seed(row=1, col=1, photo=image.name, photo_xy=(12.5, 7.25))
     seed = wall.context.active_object.reflcolor.seeds[-1]
     assert [round(value * 255) for value in seed.color] == photo[7, 12].tolist()
@@ -195,7 +198,7 @@ def test_a_photo_lying_on_its_side_is_turned_upright(wall, tmp_path):
     segment = b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif
     (tmp_path / "turned.jpg").write_bytes(data[:2] + segment + data[2:])
     wall.ops.reflcolor.load_photo(filepath=str(tmp_path / "turned.jpg"))
-    image = wall.context.scene.reflcolor.photo
+    image = wall.context.scene.reflcolor.photos[0].image
     assert tuple(image.size) == (32, 48)
     red = pixels(image)[..., 0]
     assert red[:12, -12:].min() > 0.8 and red[:12, :12].max() < 0.2 and red[-12:].max() < 0.2
@@ -205,7 +208,7 @@ def test_what_is_no_photo_is_one_line(wall, tmp_path):
     (tmp_path / "note.jpg").write_text("no picture")
     with pytest.raises(RuntimeError, match=r"note\.jpg"):
         wall.ops.reflcolor.load_photo(filepath=str(tmp_path / "note.jpg"))
-    assert wall.context.scene.reflcolor.photo is None
+    assert not wall.context.scene.reflcolor.photos
 
 
 def test_deleting_images_breaks_nothing(seeded):
@@ -216,3 +219,48 @@ def test_deleting_images_breaks_nothing(seeded):
     assert seeded.context.active_object.reflcolor.colorized_image is not None
     with pytest.raises(RuntimeError, match="was deleted"):
         seeded.ops.reflcolor.open_reflectance()
+
+
+def test_a_preset_sets_the_settings_of_the_scene(seeded, scan_file):
+    settings = seeded.context.scene.reflcolor
+    seeded.ops.reflcolor.apply_preset(preset="Enhanced")
+    assert (settings.alpha, settings.blend, settings.nearest) == (3.0, "nearest", 8)
+    seeded.ops.reflcolor.colorize()
+    rgb = colorize(
+        read_scans(scan_file)[0], Seeds(*np.transpose(PLACES), np.array(COLORS)), Settings.preset("Enhanced")
+    )
+    difference = srgb(seeded.context.active_object, "Colorized").astype(int) - rgb.rgb.reshape(-1, 3)
+    assert np.abs(difference).max() <= 1
+    seeded.ops.reflcolor.apply_preset(preset="Paper")
+    assert (settings.alpha, settings.beta, settings.smoothing, settings.blend) == (6.0, 1.0, 0.0, "auto")
+
+
+def test_photos_are_listed_and_taken_off(wall, tmp_path):
+    for name in ("a.png", "b.png"):
+        cv2.imwrite(str(tmp_path / name), np.zeros((20, 20, 3), np.uint8))
+        wall.ops.reflcolor.load_photo(filepath=str(tmp_path / name))
+    settings = wall.context.scene.reflcolor
+    assert [photo.image.name for photo in settings.photos] == ["a.png", "b.png"] and settings.active_photo == 1
+    wall.ops.reflcolor.remove_photo()
+    wall.ops.reflcolor.remove_photo()
+    assert not settings.photos
+    with pytest.raises(RuntimeError, match="Load a photo first"):
+        wall.ops.reflcolor.match_photos()
+
+
+def test_seeds_are_found_in_a_photo_and_hand_picked_ones_stay(blender):
+    cones = Path(__file__).resolve().parent.parent / "examples" / "cones"
+    blender.ops.reflcolor.import_scan(filepath=str(cones / "cones.scan.json"))
+    blender.ops.reflcolor.load_photo(filepath=str(cones / "photo.jpg"))
+    blender.ops.reflcolor.add_seed(row=10, col=20, color=(0.1, 0.2, 0.9))
+    blender.ops.reflcolor.match_photos()
+    state = blender.context.active_object.reflcolor
+    found = [seed for seed in state.seeds if seed.reason == "pose"]
+    assert len(found) > 100 and all(seed.photo.name == "photo.jpg" for seed in found)
+    assert (state.seeds[0].row, state.seeds[0].col, state.seeds[0].reason) == (10, 20, "hand")
+    assert "verified" in blender.context.scene.reflcolor.photos[0].note
+    assert state.matches_image.size[0] > 400
+    # Again: what was found before is replaced, not added to.
+    count = len(state.seeds)
+    blender.ops.reflcolor.match_photos()
+    assert len(state.seeds) == count

@@ -9,7 +9,6 @@ import pytest
 from blender_session import EXTENSION
 
 from reflcolor_addon import read_scans
-from reflcolor_addon.errors import UsageError
 from reflcolor_addon.image_files import read_image
 from reflcolor_addon.virtual_camera import VirtualCamera, look_at
 from reflcolor_addon.virtual_scanner import ScannerModel, directions, simulate_scan
@@ -283,7 +282,8 @@ def test_a_suffix_that_is_no_scan_is_one_clear_line(blender, simulation, tmp_pat
 @pytest.mark.parametrize("camera", ["truth", "reflectance"])
 def test_a_photo_never_overwrites_what_else_is_written(blender, simulation, tmp_path, camera):
     add_camera(blender, camera, (-2, 0, 1.2), (1.5, 0, -0.4))
-    with pytest.raises(UsageError, match=f"yard.{camera}.png: the same file as"):
+    errors = importlib.import_module(f"{EXTENSION}.reflcolor_addon.errors")
+    with pytest.raises(errors.UsageError, match=f"yard.{camera}.png: the same file as"):
         simulate(blender, simulation, tmp_path / "yard.scan.json", cameras=(camera,))
     assert not list(tmp_path.iterdir())
 

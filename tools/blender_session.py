@@ -5,6 +5,7 @@ are hidden here: what the extension imports must come from its zip, as in a user
 """
 
 import os
+import shutil
 import site
 import sys
 import tempfile
@@ -70,6 +71,11 @@ def enable(bpy, zip_file: Path) -> None:
 
 def end(status: int) -> None:
     """End the process with everything written; the interpreter's own way out can hang in a sound thread of bpy 4.5."""
+    if "bpy" in sys.modules:
+        scratch = Path(sys.modules["bpy"].app.tempdir)
+        # Blender makes this folder for itself; where it could not, the path is that of everyone's temporary folder.
+        if scratch.name.startswith("blender_"):
+            shutil.rmtree(scratch, ignore_errors=True)
     _flush()
     os._exit(status)
 

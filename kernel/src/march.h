@@ -159,7 +159,7 @@ static inline int32_t rc_march(const rc_steps *s, rc_queue *queue, float *curren
                         owner[q] = owner[batch[n]];
                     }
                     /* A pixel that waits in the right bucket already is not put there twice. */
-                    const uint32_t moved = (rc_bits(before) ^ rc_bits(to)) >> queue->shift;
+                    const uint32_t moved = (rc_bits(before) ^ rc_bits(to)) >> RC_SHIFT(queue->depth);
                     rc_push(queue, to, q, !(flags[q] & RC_WAITING) | (moved != 0));
                     flags[q] |= RC_WAITING;
                 }
@@ -183,7 +183,7 @@ static inline int32_t rc_march(const rc_steps *s, rc_queue *queue, float *curren
                     return RC_CANCELLED;
                 }
             }
-            if (settled >= RC_DEAL_SETTLED && bucket < RC_LAST) {
+            if (settled >= RC_DEAL_SETTLED && rc_level(bucket) < RC_LEVELS - 1) {
                 rc_deal(queue, bucket, current, flags);
                 break;
             }

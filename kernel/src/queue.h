@@ -1,9 +1,9 @@
 /* A monotone bucket queue of pixels over the bits of their distances, which sort like the distances themselves.
  *
- * Three levels: half octaves, and twice a thousandth of that. A bucket whose turn comes is emptied as it stands, in no
- * order, while it is small, and dealt out to the next level when it is large or causes much rework. An unordered bucket
- * costs some pixels a second visit and saves the dealing; results do not depend on it, because the least fixed point
- * of d(q) = min_p fl(d(p) + e(p, q)) is unique: rounded addition is monotone.
+ * Buckets are a thirty-second of an octave wide. One whose turn comes is emptied as it stands, in no order, while it is
+ * small; one that is large, or causes much rework, is dealt out to 32 finer ones first, up to twice more. Unordered
+ * buckets cost some pixels a second visit and save the dealing; results do not depend on it, because the least fixed
+ * point of d(q) = min_p fl(d(p) + e(p, q)) is unique: rounded addition is monotone.
  */
 #ifndef RC_QUEUE_H
 #define RC_QUEUE_H
@@ -16,17 +16,16 @@
 #define RC_BATCH 8
 #define RC_CHUNK 116
 #define RC_CHUNKS_PER_BLOCK 128
-/* Buckets: those of the upper bits, then the middle ones, then the last ones. */
-#define RC_MIDDLE 4096
-#define RC_LAST (RC_MIDDLE + 1024)
-#define RC_BUCKETS (RC_LAST + 1024)
-#define RC_TOP_SHIFT 19
-#define RC_MIDDLE_SHIFT 9
-#define RC_LAST_SHIFT 0
+/* Bits of a distance below those that choose its bucket, per level; a level starts at a multiple of 64 buckets. */
+#define RC_LEVELS 4
+#define RC_SHIFT(level) (18 - 5 * (level))
+#define RC_COARSE 8192
+#define RC_BASE(level) ((level) ? RC_COARSE + 64 * ((level) - 1) : 0)
+#define RC_BUCKETS RC_BASE(RC_LEVELS)
 /* More chunks than this and a bucket is dealt out when its turn comes. */
 #define RC_DEAL_CHUNKS 8
 /* Pixels settled from one undealt bucket before it is dealt out after all. */
-#define RC_DEAL_SETTLED 8192
+#define RC_DEAL_SETTLED 4096
 
 /* States of a pixel, bits of `flags`. */
 #define RC_WAITING 1 /* in the queue */
@@ -51,10 +50,9 @@ typedef struct {
 typedef struct {
     rc_bucket bucket[RC_BUCKETS];
     uint64_t occupied[RC_BUCKETS / 64];
-    /* The bucket of the first two levels whose turn it is, and whether it has been dealt out to the next level. */
-    int32_t at_top, at_middle;
-    int dealt_top, dealt_middle;
-    int shift; /* distances equal but for this many bits lie in the same bucket */
+    int depth;                  /* levels below the first that hold buckets dealt out */
+    uint32_t dealt[RC_LEVELS];  /* per level, the upper bits of the distances that were dealt out */
+    int first_word;             /* no word of `occupied` before it has a bit of the first level */
     rc_chunk *free_chunks;
     rc_block *blocks;
     int failed; /* out of memory: pixels were dropped */
@@ -67,15 +65,7 @@ static inline uint32_t rc_bits(float f)
     return u;
 }
 
-static inline rc_queue *rc_queue_new(void)
-{
-    rc_queue *q = calloc(1, sizeof *q);
-    if (q) {
-        q->at_top = q->at_middle = -1;
-        q->shift = RC_TOP_SHIFT;
-    }
-    return q;
-}
+static inline rc_queue *rc_queue_new(void) { return calloc(1, sizeof(rc_queue)); }
 
 static inline void rc_queue_free(rc_queue *q)
 {
@@ -122,15 +112,12 @@ static inline void rc_mark_empty(rc_queue *q, int32_t i) { q->occupied[i >> 6] &
 static inline void rc_push(rc_queue *q, float distance, int32_t pixel, int wanted)
 {
     const uint32_t key = rc_bits(distance);
-    const int32_t top = (int32_t)(key >> RC_TOP_SHIFT);
-    const int32_t middle = RC_MIDDLE + (int32_t)((key >> RC_MIDDLE_SHIFT) & 1023);
-    int32_t i = RC_LAST + (int32_t)((key >> RC_LAST_SHIFT) & 1023);
-    /* The flags first: they seldom change, so that the processor foresees the branch. */
-    if (!q->dealt_top || top != q->at_top) {
-        i = top;
-    } else if (!q->dealt_middle || middle != q->at_middle) {
-        i = middle;
+    int level = 0;
+    while (level < q->depth && key >> RC_SHIFT(level) == q->dealt[level]) {
+        level++;
     }
+    const int32_t i = level ? RC_BASE(level) + (int32_t)(key >> RC_SHIFT(level) & 31)
+                            : (int32_t)(key >> RC_SHIFT(0));
     rc_bucket *b = &q->bucket[i];
     rc_chunk *c = b->head;
     if (!c || c->used == RC_CHUNK) {
@@ -167,22 +154,19 @@ static inline int rc_pop(rc_queue *q, int32_t i, int32_t *out)
     return taken;
 }
 
-/* Deal a bucket of the first two levels out to the level below, without the pixels that were settled meanwhile. */
+static inline int rc_level(int32_t bucket) { return bucket < RC_COARSE ? 0 : 1 + (bucket - RC_COARSE) / 64; }
+
+/* Deal a bucket out to the level below, without the pixels that were settled meanwhile. */
 static inline void rc_deal(rc_queue *q, int32_t i, const float *current, const uint8_t *flags)
 {
     rc_bucket *b = &q->bucket[i];
+    const int level = rc_level(i);
     rc_chunk *c = b->head;
     b->head = NULL;
     b->chunks = 0;
     rc_mark_empty(q, i);
-    if (i < RC_MIDDLE) {
-        q->dealt_top = 1;
-        q->at_middle = -1;
-        q->shift = RC_MIDDLE_SHIFT;
-    } else {
-        q->dealt_middle = 1;
-        q->shift = RC_LAST_SHIFT;
-    }
+    q->dealt[level] = level ? q->dealt[level - 1] << 5 | (uint32_t)(i - RC_BASE(level)) : (uint32_t)i;
+    q->depth = level + 1;
     while (c) {
         for (int64_t n = 0; n < c->used; n++) {
             if (flags[c->pixel[n]] & RC_WAITING) {
@@ -195,14 +179,15 @@ static inline void rc_deal(rc_queue *q, int32_t i, const float *current, const u
     }
 }
 
-/* First occupied bucket in [from, to), both multiples of 64, or -1. */
-static inline int32_t rc_first(const rc_queue *q, int32_t from, int32_t to)
+/* First bucket of the first level, or -1. */
+static inline int32_t rc_first(rc_queue *q)
 {
-    for (int32_t w = from / 64; w < to / 64; w++) {
-        if (q->occupied[w]) {
-            return w * 64 + __builtin_ctzll(q->occupied[w]);
+    for (; q->first_word < RC_COARSE / 64; q->first_word++) {
+        if (q->occupied[q->first_word]) {
+            return q->first_word * 64 + __builtin_ctzll(q->occupied[q->first_word]);
         }
     }
+    q->first_word = 0;
     return -1;
 }
 
@@ -211,31 +196,20 @@ static inline int32_t rc_next(rc_queue *q, const float *current, const uint8_t *
 {
     for (;;) {
         int32_t i;
-        if (q->dealt_middle) {
-            i = rc_first(q, RC_LAST, RC_BUCKETS);
-            if (i >= 0) {
-                return i;
-            }
-            q->dealt_middle = 0;
-            q->shift = RC_MIDDLE_SHIFT;
-        }
-        if (q->dealt_top) {
-            i = rc_first(q, RC_MIDDLE, RC_LAST);
-            if (i >= 0) {
-                q->at_middle = i;
-            } else {
-                q->dealt_top = 0;
-                q->shift = RC_TOP_SHIFT;
+        if (q->depth) {
+            const int32_t base = RC_BASE(q->depth);
+            if (!q->occupied[base / 64]) {
+                q->depth--;
                 continue;
             }
+            i = base + __builtin_ctzll(q->occupied[base / 64]);
         } else {
-            i = rc_first(q, 0, RC_MIDDLE);
-            q->at_top = i;
+            i = rc_first(q);
             if (i < 0) {
                 return -1;
             }
         }
-        if (q->bucket[i].chunks <= RC_DEAL_CHUNKS) {
+        if (q->bucket[i].chunks <= RC_DEAL_CHUNKS || rc_level(i) == RC_LEVELS - 1) {
             return i;
         }
         rc_deal(q, i, current, flags);

@@ -65,7 +65,7 @@ def _image_of(scan, path):
 
 
 def _as_text(figures):
-    lines = [f"{figures['pixels']} pixels compared", f"{'':<14}{'mean':>8}{'95 %':>8}   chrominance"]
+    lines = [f"{figures['pixels']} pixels compared", "CIEDE2000         mean    95 %   chrominance PSNR"]
     for name, title in _TITLES.items():
         found = figures[name]
         lines.append(

@@ -1,0 +1,83 @@
+"""Find seeds of a scan in the photos."""
+
+import bpy
+import numpy as np
+
+from ..reflcolor_addon.errors import SeedsError
+from ..reflcolor_addon.matching import draw_matches, match_photos
+from ..reflcolor_addon.seeds import Seeds
+from . import polls
+from .images import read_pixels, write_image
+from .jobs import JobOperator
+from .properties import MATCH_NAMES, MatchSettings, core_settings
+from .scan_object import scan_of
+from .seed_list import append_seeds, seeds_of
+
+
+class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
+    """Find seeds in the photos of the list; seeds picked by hand stay, and four to six of them with a photo point help"""
+
+    bl_idname = "reflcolor.match_photos"
+    bl_label = "Match Photos"
+    bl_options = {"REGISTER", "UNDO"}
+    job_name = "Match Photos"
+
+    @classmethod
+    def poll(cls, context):
+        return polls.has_scan(cls, context) and polls.has_photos(cls, context)
+
+    def prepare(self, context):
+        obj, listed = polls.scan_object(context), context.scene.reflcolor.photos
+        self._object_name = obj.name
+        self._photo_names = [photo.image.name for photo in listed if photo.image is not None]
+        photos = [read_pixels(bpy.data.images[name]) for name in self._photo_names]
+        if any(pixels is None for pixels in photos):
+            raise SeedsError("a photo of the list cannot be read; remove it and load it again")
+        scan, settings = scan_of(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
+        numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}
+        hand = renamed(seeds_of(obj, by_hand=True), numbered)
+
+        def work(progress, cancelled):
+            matching = match_photos(scan, photos, settings, hand=hand, progress=progress, cancelled=cancelled)
+            return matching, draw_matches(scan, photos, matching.seeds)
+
+        return work
+
+    def finish(self, context, result):
+        matching, picture = result
+        obj = bpy.data.objects.get(self._object_name)
+        if obj is None or not obj.reflcolor.rows:
+            self.report({"WARNING"}, f"{self._object_name} is gone; its seeds were dropped")
+            return
+        names = {f"photo {number}": name for number, name in enumerate(self._photo_names, 1)}
+        obj.reflcolor.seeds.clear()
+        append_seeds(obj, renamed(matching.seeds, names))
+        state = obj.reflcolor
+        state.matches_image = write_image(state.matches_image, f"{obj.name} Matches", picture, is_data=False)
+        notes = {names[photo.name]: photo.note for photo in matching.photos}
+        for photo in context.scene.reflcolor.photos:
+            if photo.image is not None and photo.image.name in notes:
+                photo.note = notes[photo.image.name]
+        for warning in matching.warnings:
+            for number, name in names.items():
+                warning = warning.replace(f"{number}:", f"{name}:")
+            self.report({"WARNING"}, warning)
+        self.report({"INFO"}, f"Found {len(matching.seeds)} seeds for {obj.name}")
+
+
+def renamed(seeds, names):
+    """Return the seeds with other names of their photos; a photo that has none there counts as not known."""
+    photos = tuple(names.get(photo) for photo in seeds.photos)
+    known = np.array([photo is not None for photo in photos], bool)
+    return Seeds(
+        rows=seeds.rows,
+        cols=seeds.cols,
+        rgb=seeds.rgb,
+        photos=photos,
+        photo_xy=np.where(known[:, None], seeds.photo_xy, np.nan),
+        confidence=seeds.confidence,
+        reason=seeds.reason,
+    )
+
+
+classes = (REFLCOLOR_OT_match_photos,)
