@@ -45,7 +45,9 @@ def sources():
 
 def host_platform():
     """Wheel platform of the machine this runs on."""
-    machine = {"amd64": "x86_64", "x86_64": "x86_64", "arm64": "arm64", "aarch64": "arm64"}.get(platform.machine().lower())
+    machine = {"amd64": "x86_64", "x86_64": "x86_64", "arm64": "arm64", "aarch64": "arm64"}.get(
+        platform.machine().lower()
+    )
     names = {
         ("linux", "x86_64"): "manylinux_2_17_x86_64",
         ("linux", "arm64"): "manylinux_2_17_aarch64",

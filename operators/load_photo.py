@@ -22,16 +22,26 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
 
     @reported
     def execute(self, context):
-        path = Path(self.filepath)
-        pixels = read_image(path)
-        # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
-        image = write_image(None, path.name, pixels, is_data=False)
-        settings = context.scene.reflcolor
-        settings.photos.add().image = image
-        settings.active_photo = len(settings.photos) - 1
+        image = add_photo(context, Path(self.filepath))
         show_image(context, image)
-        self.report({"INFO"}, f"Loaded {path.name}: {image.size[0]} x {image.size[1]} pixels")
+        self.report({"INFO"}, f"Loaded {image.name}: {image.size[0]} x {image.size[1]} pixels")
         return {"FINISHED"}
+
+
+def add_photo(context, path):
+    """Load a photo and put it on the scene's list; return its image.
+
+    Raises
+    ------
+    ImageError
+        If it cannot be read.
+    """
+    # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
+    image = write_image(None, path.name, read_image(path), is_data=False)
+    settings = context.scene.reflcolor
+    settings.photos.add().image = image
+    settings.active_photo = len(settings.photos) - 1
+    return image
 
 
 classes = (REFLCOLOR_OT_load_photo,)

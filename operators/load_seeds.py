@@ -1,11 +1,14 @@
 """Load seeds from a file."""
 
+from pathlib import Path
+
 import bpy
 from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..reflcolor_addon.seeds import Seeds
+from ..reflcolor_addon.seeds import Seeds, find_photo
 from . import polls
+from .load_photo import add_photo
 from .reports import reported
 from .scan_object import scan_of
 from .seed_list import append_seeds
@@ -30,6 +33,10 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
         obj = polls.scan_object(context)
         seeds = Seeds.load(self.filepath)
         _, warnings = seeds.placed_on(scan_of(obj))
+        for name in dict.fromkeys(filter(None, seeds.photos)):
+            path = find_photo(name, Path(self.filepath), ())
+            if path is not None and name not in bpy.data.images:
+                add_photo(context, path)
         if self.replace:
             obj.reflcolor.seeds.clear()
         append_seeds(obj, seeds)

@@ -15,7 +15,7 @@ from .seed_list import append_seeds, seeds_of
 
 
 class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
-    """Find seeds in the photos of the list; seeds picked by hand stay, and four to six of them with a photo point help"""
+    """Find seeds in the photos of the list; seeds picked by hand stay, and four to six with a photo point help"""
 
     bl_idname = "reflcolor.match_photos"
     bl_label = "Match Photos"

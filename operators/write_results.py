@@ -1,6 +1,8 @@
 """The files that only Blender writes: .blend, .glb, .ply and a rendered picture."""
 
 import json
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 
 import bpy
 
@@ -65,9 +67,11 @@ def _write_blend(path):
 
 
 def _write_glb(path):
-    bpy.ops.export_scene.gltf(
-        filepath=str(path), export_format="GLB", use_selection=True, export_extras=False, export_apply=False
-    )
+    # The exporter prints its own progress, and "ERROR" for compressions that are not used here.
+    with redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+        bpy.ops.export_scene.gltf(
+            filepath=str(path), export_format="GLB", use_selection=True, export_extras=False, export_apply=False
+        )
 
 
 def _write_ply(path):
@@ -76,7 +80,7 @@ def _write_ply(path):
         export_selected_objects=True,
         export_colors="SRGB",
         export_uv=True,
-        export_attributes=False,
+        export_attributes=True,
         ascii_format=False,
         check_existing=False,
         forward_axis="Y",

@@ -2,7 +2,12 @@
 
 import sys
 
-from .cli import main
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        from .cli import main
+
+        status = main(sys.argv[1:])
+    except KeyboardInterrupt:  # before the command line listens for it
+        print("error: interrupted", file=sys.stderr)
+        status = 130
+    sys.exit(status)

@@ -267,9 +267,7 @@ def field(graph, pixels, *, start=None, control=None):
         start = np.ascontiguousarray(np.broadcast_to(np.asarray(start, np.float32), pixels.shape))
     plane, grid = graph._plane(np.float32)
     first = None if start is None else _address(start)
-    _check(
-        _library().rc_field(graph._c, pixels.size, _address(pixels), first, _address(plane), _control(control))
-    )
+    _check(_library().rc_field(graph._c, pixels.size, _address(pixels), first, _address(plane), _control(control)))
     return grid[..., 0]
 
 

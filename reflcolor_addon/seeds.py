@@ -15,6 +15,7 @@ from .image_files import read_image
 
 FORMAT = "reflcolor-seeds"
 VERSION = 1
+_KEYS = ("row", "col", "rgb", "photo", "x", "y", "confidence", "reason")
 REASONS = ("pose", "homography", "appearance", "hand")
 
 
@@ -256,9 +257,11 @@ class _SeedsFile:
             raise SeedsError(f"{self._path}: cannot be read ({error.strerror})") from error
         except UnicodeDecodeError as error:
             raise SeedsError(f"{self._path}: expected a JSON file of seeds, found bytes that are no text") from error
-        except (ValueError, RecursionError) as error:  # ValueError also for a number of thousands of digits
-            line = getattr(error, "lineno", 1)
-            raise SeedsError(f"{self._path}: line {line}: expected a JSON file of seeds, found no JSON") from error
+        except json.JSONDecodeError as error:
+            place = f"line {error.lineno}, column {error.colno}"
+            raise SeedsError(f"{self._path}: {place}: expected a JSON file of seeds ({error.msg})") from error
+        except (ValueError, RecursionError) as error:  # a number of thousands of digits, brackets without end
+            raise SeedsError(f"{self._path}: expected a JSON file of seeds, found what JSON cannot hold") from error
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise SeedsError(f'{self._path}: expected a JSON object with "format": "{FORMAT}"')
         if document.get("version") != VERSION:
@@ -272,6 +275,9 @@ class _SeedsFile:
         where = f"{self._path}: seed {place}"
         if not isinstance(entry, dict):
             raise SeedsError(f"{where}: expected an object with row, col and a color, found {reprlib.repr(entry)}")
+        unknown = sorted(set(entry) - set(_KEYS))
+        if unknown:
+            raise SeedsError(f"{where}: {unknown[0]}: not a key of a seed; known are {', '.join(_KEYS)}")
         row, col = (self._number(where, entry, key, Integral) for key in ("row", "col"))
         photo, xy = None, (math.nan, math.nan)
         if "photo" in entry:
@@ -285,8 +291,9 @@ class _SeedsFile:
             if not whole or len(rgb) != 3:
                 raise SeedsError(f"{where}: rgb: expected three whole numbers from 0 to 255, found {reprlib.repr(rgb)}")
         elif photo is not None:
+            image = self._image(photo, where)
             try:
-                rgb = sample_photo(self._image(photo, where), *xy)
+                rgb = sample_photo(image, *xy)
             except SeedsError as error:
                 raise SeedsError(f"{where}: {photo}: {error}") from error
         else:

@@ -95,7 +95,11 @@ def test_the_ply_holds_the_colors(results):
     kinds = [line.split()[1].decode() for line in header.splitlines() if line.startswith(b"property")]
     count = int(next(line for line in header.splitlines() if line.startswith(b"element vertex")).split()[-1])
     dtype = np.dtype(
-        [(n, {"float": "<f4", "uchar": "u1"}[k]) for n, k in zip(names, kinds, strict=True) if k != "list"]
+        [
+            (n, {"float": "<f4", "uchar": "u1", "int": "<i4"}[k])
+            for n, k in zip(names, kinds, strict=True)
+            if k != "list"
+        ]
     )
     table = np.frombuffer(body, dtype, count)
     (scan,) = read_scans(folder / "w.ptx")

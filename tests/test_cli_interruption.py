@@ -83,7 +83,7 @@ def test_ctrl_c_ends_a_process(cli_folder):
     rng = np.random.default_rng(0)
     Seeds(rng.integers(0, 400, 5000), rng.integers(0, 500, 5000), rng.integers(0, 256, (5000, 3))).save("seeds.json")
     master, slave = os.openpty()
-    line, options = process_line(*COLORIZE, "-o", "out.png")
+    line, options = process_line(*COLORIZE, "--nearest", "all", "-o", "out.png")
     process = subprocess.Popen(line, **options, stdout=subprocess.PIPE, stderr=slave)
     os.close(slave)
     try:

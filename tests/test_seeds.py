@@ -100,8 +100,8 @@ def test_a_file_with_a_byte_order_mark_is_read(seeds_path):
 @pytest.mark.parametrize(
     ("content", "problem"),
     [
-        (b"", "line 1: expected a JSON file of seeds"),
-        (b'{"format": "reflcolor-seeds",\n "version": }', "line 2: expected a JSON file of seeds"),
+        (b"", "line 1, column 1: expected a JSON file of seeds"),
+        (b'{"format": "reflcolor-seeds",\n "version": }', "line 2, column 13: expected a JSON file of seeds"),
         (b"\xff\xfe\x00", "found bytes that are no text"),
         (b"[" * 100_000, "expected a JSON file of seeds"),
         (b'{"seeds": [' + b"1" * 5000 + b"]}", "expected a JSON file of seeds"),

@@ -37,9 +37,7 @@ def _panel(name, results):
     import cv2
 
     image = np.full((_HEIGHT * _SCALE, _WIDTH * _SCALE, 3), 255, np.uint8)
-    errors = {
-        method: [r["figures"][method]["color_alone"]["ciede2000_mean"] for r in results] for method in _COLORS
-    }
+    errors = {method: [r["figures"][method]["color_alone"]["ciede2000_mean"] for r in results] for method in _COLORS}
     low = math.floor(min(map(min, errors.values())) * 2) / 2
     high = math.ceil(max(map(max, errors.values())) * 2) / 2
     right, bottom = _WIDTH - 14, _HEIGHT - _MARGIN + 8
@@ -47,9 +45,7 @@ def _panel(name, results):
     def place(seeds, error):
         across = math.log(seeds / min(COUNTS)) / math.log(max(COUNTS) / min(COUNTS))
         up = (error - low) / (high - low)
-        return tuple(
-            round(_SCALE * v) for v in (_MARGIN + across * (right - _MARGIN - 8), bottom - up * (bottom - 34))
-        )
+        return tuple(round(_SCALE * v) for v in (_MARGIN + across * (right - _MARGIN - 8), bottom - up * (bottom - 34)))
 
     step = 0.5 if high - low <= 3 else 1.0
     for tick in np.arange(low, high + 1e-9, step):

@@ -52,7 +52,10 @@ def _ratios(figures):
 
 def confidence_table(results):
     """Rank correlation of confidence and error, and the mean errors of both halves."""
-    lines = ["| scan | seeds | Paper: rank correlation, halves | Enhanced: rank correlation, halves |", "|---|---|---|---|"]
+    lines = [
+        "| scan | seeds | Paper: rank correlation, halves | Enhanced: rank correlation, halves |",
+        "|---|---|---|---|",
+    ]
     for result in results:
         cells = []
         for method in ("Paper", "Enhanced"):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..atomic import written_atomically
 from ..colorize import colorize
-from ..errors import UsageError
+from ..errors import SeedsError, UsageError
 from ..image_files import read_image, write_png
 from ..inputs import photo_files, scan_files
 from ..outputs import IMAGE_SUFFIXES, SCENE_SUFFIXES, check_outputs, scene_outputs, tracked
@@ -117,6 +117,8 @@ def _found_seeds(scan, photos, settings, session):
 def _load_seeds(arguments, session):
     """The seeds; every photo that was given must be an image, and one that serves nothing is told."""
     seeds = Seeds.load(arguments.seeds, arguments.photo)
+    if len(seeds) == 0:
+        raise SeedsError(f"{arguments.seeds}: holds no seeds; give at least one pixel with a color")
     for path in arguments.photo:
         read_image(path)
         if path.name not in {Path(name).name for name in seeds.photos if name}:

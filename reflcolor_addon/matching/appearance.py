@@ -87,15 +87,19 @@ class Appearance:
         error, baseline, doubt = np.zeros(len(rgb)), np.zeros(len(rgb)), np.zeros(len(rgb))
         for part in range(_FOLDS):
             held, rest = fold == part, fold != part
-            predicted, _, doubt[held] = _nearest(descriptors[held] * scale, descriptors[rest] * scale, chrominance[rest])
+            predicted, _, doubt[held] = _nearest(
+                descriptors[held] * scale, descriptors[rest] * scale, chrominance[rest]
+            )
             error[held] = np.linalg.norm(predicted - chrominance[held], axis=1)
             baseline[held] = np.linalg.norm(chrominance[rest].mean(axis=0) - chrominance[held], axis=1)
         limits = np.quantile(doubt, np.linspace(0, 1, _BINS + 1)[1:-1])
         in_bin = np.searchsorted(limits, doubt)
-        skill = np.array([
-            1 - error[in_bin == b].sum() / max(baseline[in_bin == b].sum(), 1e-9) if (in_bin == b).any() else 0.0
-            for b in range(_BINS)
-        ])
+        skill = np.array(
+            [
+                1 - error[in_bin == b].sum() / max(baseline[in_bin == b].sum(), 1e-9) if (in_bin == b).any() else 0.0
+                for b in range(_BINS)
+            ]
+        )
         # More doubt is never more trust.
         skill = np.minimum.accumulate(np.clip(skill, 0, 1))
         return cls(descriptors, chrominance, rgb, scale, limits, skill)

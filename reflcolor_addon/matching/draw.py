@@ -8,7 +8,12 @@ from .superpixels import sized
 _HEIGHT = 720
 _GAP = 8
 _MOST_LINES = 250
-_REASON_COLORS = {"pose": (60, 200, 90), "homography": (60, 160, 240), "appearance": (240, 180, 40), "hand": (240, 70, 200)}
+_REASON_COLORS = {
+    "pose": (60, 200, 90),
+    "homography": (60, 160, 240),
+    "appearance": (240, 180, 40),
+    "hand": (240, 70, 200),
+}
 _PLAIN = (200, 200, 200)
 
 
@@ -44,9 +49,9 @@ def draw_matches(scan, photos, seeds):
         lefts.append(left)
         left += panel.shape[1] + _GAP
     places = {photo.name: (lefts[index + 1], photo) for index, photo in enumerate(opened)}
-    starts = np.column_stack([
-        (seeds.cols + 0.5) * own.shape[1] / scan.shape[1], (seeds.rows + 0.5) * _HEIGHT / scan.shape[0]
-    ]).reshape(-1, 2)
+    starts = np.column_stack(
+        [(seeds.cols + 0.5) * own.shape[1] / scan.shape[1], (seeds.rows + 0.5) * _HEIGHT / scan.shape[0]]
+    ).reshape(-1, 2)
     every = max(1, -(-len(seeds) // _MOST_LINES))
     for index, (start, name, xy) in enumerate(zip(starts, seeds.photos, seeds.photo_xy, strict=True)):
         if name in places and np.isfinite(xy).all() and index % every == 0:

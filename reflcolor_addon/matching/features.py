@@ -29,7 +29,9 @@ def homographies(grid_image, scan_shape, photo):
     to_grid = np.diag([scan_shape[1] / own.shape[1], scan_shape[0] / own.shape[0], 1.0])
     to_photo = np.diag([photo.width / other.shape[1], photo.height / other.shape[0], 1.0])
     for variant, kind in VARIANTS:
-        points = _matches(_variant(own, variant), _variant(other, "contrast" if variant == "inverted" else variant), kind)
+        points = _matches(
+            _variant(own, variant), _variant(other, "contrast" if variant == "inverted" else variant), kind
+        )
         if points is None:
             continue
         cv2.setRNGSeed(0)
@@ -105,5 +107,3 @@ def _sane(matrix, shape):
     turns = sides[:, 0] * np.roll(sides, -1, axis=0)[:, 1] - sides[:, 1] * np.roll(sides, -1, axis=0)[:, 0]
     area = 0.5 * abs(np.sum(corners[:, 0] * np.roll(corners[:, 1], -1) - corners[:, 1] * np.roll(corners[:, 0], -1)))
     return bool((turns > 0).all() and area > 1e-3 * width * height)
-
-

@@ -77,7 +77,12 @@ def hog_matches(scan, photos):
         squared = (own**2).sum(axis=1)[:, None] + squares - 2 * own @ stacked.T
         best[start : start + 256] = squared.argmin(axis=1)
         distance[start : start + 256] = np.sqrt(np.maximum(squared.min(axis=1), 0))
-    rgb = np.array([photos[p].rgb[tuple(photos[p].superpixels.centers[s])] for p, s in zip(owner[best], segment[best], strict=True)])
+    rgb = np.array(
+        [
+            photos[p].rgb[tuple(photos[p].superpixels.centers[s])]
+            for p, s in zip(owner[best], segment[best], strict=True)
+        ]
+    )
     xy = np.array([photos[p].centers_xy[s] for p, s in zip(owner[best], segment[best], strict=True)])
     length = np.linalg.norm(scan.descriptors, axis=1) + np.sqrt(squares[best])
     similarity = np.clip(1 - distance / np.maximum(length, 1e-6), 0, 1)
@@ -102,12 +107,14 @@ def _descriptors(gray, centers, settings, *, wrap):
     half = window // 2
     edges = np.pad(canny, ((half, window - half), (0, 0)))
     edges = np.pad(edges, ((0, 0), (half, window - half)), mode="wrap" if wrap else "constant")
-    return np.array([
-        hog(
-            edges[row : row + window, col : col + window],
-            orientations=settings.hog_orientations,
-            pixels_per_cell=(settings.hog_cell, settings.hog_cell),
-            cells_per_block=(settings.hog_block, settings.hog_block),
-        )
-        for row, col in centers
-    ])
+    return np.array(
+        [
+            hog(
+                edges[row : row + window, col : col + window],
+                orientations=settings.hog_orientations,
+                pixels_per_cell=(settings.hog_cell, settings.hog_cell),
+                cells_per_block=(settings.hog_block, settings.hog_block),
+            )
+            for row, col in centers
+        ]
+    )

@@ -134,7 +134,9 @@ def match_site(scans, photos, settings=None, *, hand=None, progress=None, cancel
     for scan in scans:
         if not scan.valid.any():
             raise SeedsError(f"{scan.name}: no pixel has a return, so nothing can be matched")
-    hand = [None if own is None or len(own) == 0 else own.placed_on(scan)[0] for own, scan in zip(hand, scans, strict=True)]
+    hand = [
+        None if own is None or len(own) == 0 else own.placed_on(scan)[0] for own, scan in zip(hand, scans, strict=True)
+    ]
     progress(0.0, "Opening the photos")
     opened = opened_photos(photos)
     if not opened:
@@ -188,7 +190,9 @@ def opened_photos(photos):
 def joined(hand, found):
     """Return seeds picked by hand followed by found ones, of which none lies on a pixel that was picked."""
     picked = set(zip(hand.rows.tolist(), hand.cols.tolist(), strict=True))
-    free = [k for k, place in enumerate(zip(found.rows.tolist(), found.cols.tolist(), strict=True)) if place not in picked]
+    free = [
+        k for k, place in enumerate(zip(found.rows.tolist(), found.cols.tolist(), strict=True)) if place not in picked
+    ]
     return Seeds(
         rows=np.concatenate([hand.rows, found.rows[free]]),
         cols=np.concatenate([hand.cols, found.cols[free]]),
@@ -221,5 +225,7 @@ def _as_published(scan, photos, settings, step):
         confidence=matches.similarity,
         reason=("appearance",) * len(rows),
     )
-    reports = tuple(PhotoMatch(photo.name, False, None, None, "matched by appearance, as published") for photo in photos)
+    reports = tuple(
+        PhotoMatch(photo.name, False, None, None, "matched by appearance, as published") for photo in photos
+    )
     return Matching(seeds, reports, ())

@@ -12,7 +12,8 @@ from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
-_CONVINCING = 15.0
+# From this multiple of the needed evidence on, nothing better is looked for.
+_CONVINCING = 3.0
 _GUESSES = 14
 _TRIED = 5
 _PENALTY = 0.004
@@ -82,9 +83,9 @@ def register(views, photo, *, step=lambda text: None):
     best = Registration(None, NO_EVIDENCE, "nothing")
     for attempt, tone in _ATTEMPTS:
         found = attempt(views, photo, tone, step)
-        if found.evidence.strength > best.evidence.strength:
+        if found.evidence.rank > best.evidence.rank:
             best = found
-        if best.accepted and best.evidence.strength >= _CONVINCING:
+        if best.accepted and best.evidence.rank >= _CONVINCING:
             break
     return best
 
@@ -97,7 +98,7 @@ def confirmed(views, photo, model):
         near, _ = refined(views, photo, model, tone, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng)
         for start in (model, near):
             candidate, proof = finely(views, photo, start, tone, rng)
-            if proof.strength > best.evidence.strength:
+            if proof.rank > best.evidence.rank:
                 best = Registration(candidate, proof, "known")
         if best.accepted:
             break
@@ -146,9 +147,9 @@ def _by_features(views, photo, tone, step):
     for model in candidates():
         step(f"{photo.name}: matching features")
         model, proof = finely(views, photo, model, tone, rng)
-        if proof.strength > best.evidence.strength:
+        if proof.rank > best.evidence.rank:
             best = Registration(model, proof, "features")
-        if best.accepted and proof.strength >= _CONVINCING:
+        if best.accepted and proof.rank >= _CONVINCING:
             break
     return best
 
@@ -177,18 +178,18 @@ def _searched(views, photo, tone, centers, pitches, step):
         step(f"{photo.name}: trying directions")
         model = guess.camera(photo)
         coarse.append(refined(views, photo, model, tone, [(*_COARSE, 10, 1.5, 1.2)], free=model.ROTATION, rng=rng))
-    coarse.sort(key=lambda found: -found[1].strength)
+    coarse.sort(key=lambda found: -found[1].rank)
     middle = []
     for model, _ in coarse[:_TRIED]:
         step(f"{photo.name}: trying directions")
         free = model.ROTATION if len(centers) == 1 else model.POSE
         middle.append(refined(views, photo, model, tone, [(*_MIDDLE, 10, 1.0, 0.8)], free=free, rng=rng))
-    middle.sort(key=lambda found: -found[1].strength)
+    middle.sort(key=lambda found: -found[1].rank)
     best = Registration(None, NO_EVIDENCE, "search")
     for model, _ in middle[:2]:
         step(f"{photo.name}: refining")
         model, proof = finely(views, photo, model, tone, rng)
-        if proof.strength > best.evidence.strength:
+        if proof.rank > best.evidence.rank:
             best = Registration(model, proof, "search")
     return best
 

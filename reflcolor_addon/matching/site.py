@@ -201,7 +201,7 @@ def _trust(registration):
     """How sure a registration is: 0.75 where it is just accepted or rests on pairs alone, 1 where it is beyond doubt."""
     if registration.model is None or not registration.accepted:
         return 0.75
-    return float(np.clip(0.75 + 0.25 * (registration.evidence.strength - 4) / 16, 0.75, 1.0))
+    return float(np.clip(0.75 + 0.25 * (registration.evidence.rank - 1) / 4, 0.75, 1.0))
 
 
 def _learnt(places, seen, looks):

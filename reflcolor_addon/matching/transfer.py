@@ -44,7 +44,9 @@ def seen_by(photo, model, image):
     finite = image.valid & np.isfinite(xy).all(axis=-1)
     seen = visible(model, xy, depth, finite)
     border = _BORDER_SHARE * max(model.width, model.height)
-    inside = (xy >= border).all(axis=-1) & (np.nan_to_num(xy) <= [model.width - border, model.height - border]).all(axis=-1)
+    inside = (xy >= border).all(axis=-1) & (np.nan_to_num(xy) <= [model.width - border, model.height - border]).all(
+        axis=-1
+    )
     cosine = _cosine(model, image)
     solid = _opened(seen & ~jumps(image), image.valid)
     usable = solid & inside & (cosine > _GRAZING)

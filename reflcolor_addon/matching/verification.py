@@ -18,9 +18,12 @@ TILE = 40
 _SIZES = (28, TILE, 56)
 _NEAR = 1.5
 _CHANCE = 0.06
-_ACCEPTED_DEVIATIONS = 4.0
+# What strength is needed where the photo was taken from the scanner's place, and where from anywhere: the more freedom a
+# model has, the more often a wrong one fits by chance.
+_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE = 3.2, 14.0
+_ANYWHERE_SHARE = 0.2
 _ACCEPTED_MEAN = 0.85
-_ACCEPTED_TILES = 10
+_ACCEPTED_TILES = 12
 # The tiles in place must spread over the scan as far as a third of how all tiles do.
 _ACCEPTED_SPREAD = 0.33
 
@@ -36,6 +39,8 @@ class Evidence:
         Mean score of all tiles where the model puts them, in deviations of the tiles' own surfaces.
     spread : float
         How far the tiles in place spread, as a share of how far all tiles do, in the weaker direction.
+    needed : float
+        The `strength` that is needed for a model of this freedom.
     """
 
     deviations: float
@@ -43,12 +48,13 @@ class Evidence:
     tiles: int
     mean: float
     spread: float
+    needed: float = _NEEDED_ANYWHERE
 
     @property
     def accepted(self):
         """Whether the model is right."""
         return (
-            self.deviations >= _ACCEPTED_DEVIATIONS
+            self.strength >= self.needed
             and self.mean >= _ACCEPTED_MEAN
             and self.in_place >= _ACCEPTED_TILES
             and self.spread >= _ACCEPTED_SPREAD
@@ -56,8 +62,13 @@ class Evidence:
 
     @property
     def strength(self):
-        """One number to compare models by."""
-        return self.deviations * max(self.mean, 0.0)
+        """Deviations times mean score: right models have both."""
+        return max(self.deviations, 0.0) * max(self.mean, 0.0)
+
+    @property
+    def rank(self):
+        """One number to compare models by: the strength as a share of what is needed."""
+        return self.strength / self.needed
 
     def __str__(self):
         return f"{self.in_place} of {self.tiles} tiles in place"
@@ -82,7 +93,15 @@ def evidence(scan_image, photo, model):
         middle.tiles,
         float(np.mean([one.mean for one in judgements])),
         middle.spread,
+        _needed(scan_image, model),
     )
+
+
+def _needed(scan_image, model):
+    if model.kind == "homography":
+        return _NEEDED_AT_SCANNER
+    share = np.linalg.norm(model.center) / np.median(scan_image.range[scan_image.valid])
+    return float(np.interp(share, [0, _ANYWHERE_SHARE], [_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE]))
 
 
 def judged(found):

@@ -32,6 +32,11 @@ def read_image_pair(path, *, progress=None, cancelled=None):
 
     tell(0.0, description.range)
     values, opaque = _measured(path, "range", description.range)
+    if values.dtype.kind in "ui" and description.range_scale is None and description.range_table is None:
+        raise ScanError(
+            f"{path.name}: range_scale: missing; {description.range} holds whole numbers, so say how many metres one is "
+            "(0.001 for millimetres)"
+        )
     shape = values.shape
     require_memory(values.size * BYTES_PER_PIXEL, f"{path.name}: {shape[0]} x {shape[1]} pixels", error=ScanError)
     valid = np.isfinite(values) & (values != 0 if opaque is None else opaque)

@@ -32,7 +32,7 @@ class Description:
     color : str, optional
     model : Pinhole or Spherical
     range_scale, range_offset : float
-        Metres = value * scale + offset.
+        Metres = value * scale + offset. The scale may be missing where the image holds metres as floating point.
     range_table : (N, 2) float64, optional
         Instead of scale and offset, for images whose values are no linear measure (equalized, companded): values, and
         the metres that they stand for, linear in between.
@@ -50,7 +50,7 @@ class Description:
     model: Pinhole | Spherical
     range_type: str
     color: str | None = None
-    range_scale: float = 1.0
+    range_scale: float | None = None
     range_offset: float = 0.0
     range_table: np.ndarray | None = None
     color_order: str = "rgb"
@@ -61,7 +61,7 @@ class Description:
         """(H, W) float64 of (H, W) pixel values."""
         if self.range_table is not None:
             return np.interp(values, *self.range_table.T)
-        return values.astype(np.float64) * self.range_scale + self.range_offset
+        return values.astype(np.float64) * (self.range_scale or 1.0) + self.range_offset
 
 
 def load_description(path):
