@@ -180,7 +180,7 @@ def test_gray_colors_are_no_colors(folder):
         ({"range": 7}, "range: expected a text in one line, found 7"),
         ({"rnage_scale": 1}, "rnage_scale: unknown key, expected one of format, version, range, "),
         ({"range_scale": "x"}, 'range_scale: expected a positive number, found "x"'),
-        ({"range_scale": None}, "range_scale: missing; depth.png holds whole numbers, so say how many metres one is"),
+        ({"range_scale": None}, "range_scale: missing; depth.png holds whole numbers, say how many metres one is"),
         ({"range_scale": 0}, "range_scale: expected a positive number, found 0"),
         ({"range_scale": True}, "range_scale: expected a positive number, found true"),
         ({"range_scale": 10**400}, "range_scale: expected a positive number, found 1000"),

@@ -34,7 +34,7 @@ def read_image_pair(path, *, progress=None, cancelled=None):
     values, opaque = _measured(path, "range", description.range)
     if values.dtype.kind in "ui" and description.range_scale is None and description.range_table is None:
         raise ScanError(
-            f"{path.name}: range_scale: missing; {description.range} holds whole numbers, so say how many metres one is "
+            f"{path.name}: range_scale: missing; {description.range} holds whole numbers, say how many metres one is "
             "(0.001 for millimetres)"
         )
     shape = values.shape
