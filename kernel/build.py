@@ -34,7 +34,7 @@ TARGETS = {
 
 # No contraction of a * b + c: it would round differently where the processor has such an instruction. No x86
 # instructions beyond the base set, which every 64-bit processor has.
-FLAGS = ["-std=c11", "-O3", "-ffp-contract=off", "-fno-sanitize=all", "-fvisibility=hidden", "-shared", "-s", "-g0"]
+FLAGS = ["-std=c11", "-O2", "-ffp-contract=off", "-fno-sanitize=all", "-fvisibility=hidden", "-shared", "-s", "-g0"]
 _EPOCH = (1980, 1, 1, 0, 0, 0)
 
 

@@ -102,8 +102,8 @@ class REFLCOLOR_PT_match(_Step, bpy.types.Panel):
         if obj is not None and settings.photos:
             pairs = sum(seed.reason == "hand" and seed.photo is not None for seed in obj.reflcolor.seeds)
             column = layout.column(align=True)
-            column.label(text="If a photo is not recognized, add four to six", icon="INFO")
-            column.label(text=f"seeds with a photo point ({pairs} so far)", icon="BLANK1")
+            column.label(text="Not recognized? Pick 4 to 6 seeds", icon="INFO")
+            column.label(text=f"with a photo point ({pairs} so far)", icon="BLANK1")
 
 
 class REFLCOLOR_PT_descriptors(_Step, bpy.types.Panel):
@@ -146,6 +146,22 @@ class REFLCOLOR_PT_colorize(_Step, bpy.types.Panel):
             layout.label(text="Needs seeds", icon="INFO")
 
 
+class REFLCOLOR_PT_advanced(_Step, bpy.types.Panel):
+    bl_label = "Advanced"
+    bl_parent_id = "REFLCOLOR_PT_colorize"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_step(self, context, layout, _obj):
+        settings = context.scene.reflcolor
+        layout.prop(settings, "color_space")
+        layout.row().prop(settings, "neighbors", expand=True)
+        layout.prop(settings, "blend")
+        if settings.blend == "nearest":
+            layout.prop(settings, "nearest")
+        layout.prop(settings, "smoothing")
+        layout.prop(settings, "kriging")
+
+
 class REFLCOLOR_PT_evaluate(_Step, bpy.types.Panel):
     bl_label = "5. Evaluate"
     bl_options = {"DEFAULT_CLOSED"}
@@ -160,9 +176,13 @@ class REFLCOLOR_PT_evaluate(_Step, bpy.types.Panel):
 
 classes = (
     REFLCOLOR_UL_seeds,
+    REFLCOLOR_UL_photos,
     REFLCOLOR_PT_scan,
     REFLCOLOR_PT_images,
     REFLCOLOR_PT_seeds,
+    REFLCOLOR_PT_match,
+    REFLCOLOR_PT_descriptors,
     REFLCOLOR_PT_colorize,
+    REFLCOLOR_PT_advanced,
     REFLCOLOR_PT_evaluate,
 )

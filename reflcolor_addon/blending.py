@@ -91,6 +91,31 @@ def blend_nearest(distances, seeds, colors, alpha):
     return mean, np.where(reached, bound, 0).astype(np.float32)
 
 
+def left_out(distances, seeds, colors, alpha):
+    """Take eq. 1 at every seed's own pixel, over the other seeds near it.
+
+    Parameters
+    ----------
+    distances : (S, k) float32
+        From each seed's pixel to the k nearest seeds, itself among them or not; infinite in empty places.
+    seeds : (S, k) int32
+        Which these are; -1 in empty places.
+    colors : (S, 2) float
+    alpha : float
+
+    Returns
+    -------
+    (S, 2) float32
+        0 where no other seed is near.
+    """
+    own = seeds == np.arange(len(colors))[:, None]
+    distances = np.where(own, np.inf, distances)
+    order = np.argsort(distances, axis=1, kind="stable")
+    distances, seeds = (np.take_along_axis(array, order, axis=1) for array in (distances, seeds))
+    mean, _ = blend_nearest(distances[:, None], seeds[:, None], colors, alpha)
+    return mean.chroma[:, :, 0].T
+
+
 def _relative_weight(farther, nearest, alpha):
     """(farther / nearest)^-alpha, in 0..1; 1 for two zeros, 0 for anything against zero or for the unreached."""
     weight = np.zeros(farther.shape)

@@ -16,7 +16,8 @@ class Colorization:
     rgb : (H, W, 3) uint8
         sRGB; the gray of the reflectance where no seed reaches, black without a return.
     confidence : (H, W) float32
-        1 at a seed, falling with the geodesic distance to the nearest one; 0 where no seed reaches.
+        0 to 1: falling with the geodesic distance to the nearest seed, with the difference between eq. 1 and kriging,
+        and with what of the color could not be shown at the luminance there; 0 where no seed reaches.
     nearest_seed : (H, W) int32
         Index of the seed at the least geodesic distance; -1 where none reaches.
     seeds : Seeds
@@ -28,7 +29,7 @@ class Colorization:
     method : dict
         ``engine`` that computed the distances and a ``note`` if it is not the kernel; ``nearest``, the number of
         seeds per pixel (None: all), and then ``bound_levels``: the most, in 8-bit levels, that the seeds left out could
-        change, over all pixels (``max``) and over 999 of 1,000 (``p99.9``).
+        change, over all pixels (``max``) and over 999 of 1,000 (``p99.9``); with kriging, the share that it got.
     """
 
     rgb: np.ndarray

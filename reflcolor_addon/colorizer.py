@@ -7,11 +7,12 @@ from concurrent.futures import ThreadPoolExecutor, wait
 import numpy as np
 
 from . import colorspaces
+from .blending import left_out
 from .colorization import Colorization
 from .engines import engine_for
 from .errors import Cancelled
 from .graph import PixelGraph
-from .kriging import MAX_SEEDS, Kriging, pixel_features
+from .kriging import MAX_SEEDS, Kriging, pixel_features, share
 from .memory import require_memory
 from .normalization import normalize
 from .settings import Settings
@@ -19,7 +20,7 @@ from .smoothing import smooth
 
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
 _HALF_CONFIDENCE = 64.0
-# The same for the difference between eq. 1 and kriging, in 8-bit levels.
+# The same, in 8-bit levels, for the difference between eq. 1 and kriging and for what no color can show.
 _HALF_CONFIDENCE_LEVELS = 5.0
 # nearest="auto": exact up to this many pixels times seeds, about 2 s on two threads. A fixed number, not a measured
 # time: the same input must give the same result everywhere.
@@ -31,7 +32,7 @@ _POLL_S = 0.02
 _DEFAULT_MEMORY = 1 << 30
 # Of the progress; the colors are written after both.
 _PROPAGATED, _COLORED = 0.75, 0.95
-_KRIGING_BYTES = 220
+_KRIGING_BYTES = 100
 """What kriging holds at its worst moment, per pixel."""
 
 
@@ -88,21 +89,26 @@ class Colorizer:
             kriging = 0.0
             warnings.append(f"kriging is left out: it takes {MAX_SEEDS} seeds at most, found {len(seeds)}")
         propagated = _PROPAGATED if kriging else _COLORED
-        mean, method = self._propagate(
+        mean, method, near = self._propagate(
             pixels, chrominance, lambda done, text: progress(propagated * done, text), cancelled
         )
         reached = np.isfinite(mean.least)
         chroma, confidence = mean.chroma, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
         if kriging:
-            estimate = self._krige(pixels, chrominance, progress, cancelled)
+            path_residuals = chrominance - left_out(*near, chrominance, self.settings.alpha)
+            estimate, kriging = self._krige(pixels, chrominance, path_residuals, progress, cancelled)
+            method["kriging"] = kriging
             levels = np.hypot(*(estimate - chroma)) * colorspaces.levels_per_unit(self.settings.color_space)
             confidence /= 1 + levels / _HALF_CONFIDENCE_LEVELS
             chroma = (1 - kriging) * chroma + kriging * estimate
+        chroma = np.moveaxis(chroma, 0, -1)
         progress(_COLORED, "Writing the colors")
         unreached = int(np.count_nonzero(self.scan.valid & ~reached))
         if unreached:
             warnings.append(f"{unreached} pixels are cut off from every seed and keep their gray; add seeds there")
-        rgb = colorspaces.merge(self._luminance, np.moveaxis(chroma, 0, -1), self.settings.color_space)
+        rgb = colorspaces.merge(self._luminance, chroma, self.settings.color_space)
+        lost = colorspaces.lost_levels(rgb, chroma, self.settings.color_space)
+        confidence /= 1 + lost / _HALF_CONFIDENCE_LEVELS
         rgb[~reached] = np.rint(self._luminance[~reached])[:, None]
         progress(1.0, "Colorized")
         return Colorization(
@@ -154,19 +160,20 @@ class Colorizer:
         return seeds * self.scan.valid.size <= AUTO_EXACT_PIXEL_SEEDS or seeds <= AUTO_NEAREST[0]
 
     def _propagate(self, pixels, chrominance, progress, cancelled):
-        """Return the mean of eq. 1 and how it was come by."""
+        """Return the mean of eq. 1, how it was come by, and what lies near the seeds (see the engine's ``nearest``)."""
         nearest = self.settings.nearest
         method = {"engine": self._engine.name, "note": self._engine.note, "nearest": None}
         if nearest is None or (nearest == "auto" and (self._engine.note or self._is_small(len(pixels)))):
-            return self._exact(pixels, chrominance, progress, cancelled), method
+            mean, near = self._exact(pixels, chrominance, progress, cancelled)
+            return mean, method, near
         for k in AUTO_NEAREST if nearest == "auto" else (nearest,):
-            mean, bound = self._nearest(pixels, chrominance, min(k, len(pixels)), progress, cancelled)
+            mean, bound, near = self._nearest(pixels, chrominance, min(k, len(pixels)), progress, cancelled)
             levels = colorspaces.levels_per_unit(self.settings.color_space)
             largest, percentile = self._bound_levels(bound, levels)
             method |= {"nearest": k, "bound_levels": {"max": largest, "p99.9": percentile}}
             if percentile <= AUTO_TOLERANCE_LEVELS:
                 break
-        return mean, method
+        return mean, method, near
 
     def _bound_levels(self, bound, levels):
         inside = bound[self.scan.valid]
@@ -175,7 +182,11 @@ class Colorizer:
     def _exact(self, pixels, chrominance, progress, cancelled):
         """Eq. 1 over all seeds, in their order; fields that are not held are computed in threads, a few ahead."""
         wanted = list(zip(pixels.tolist(), map(tuple, chrominance.tolist()), strict=True))
-        done = len(self._blended)
+        done, near = len(self._blended), None
+        if self.settings.kriging and pixels.size <= MAX_SEEDS:
+            # Kriging asks how far the seeds are from each other, so every field is seen again.
+            self._forget_sums()
+            near = np.empty((pixels.size,) * 2, np.float32), np.broadcast_to(np.arange(pixels.size), (pixels.size,) * 2)
         if self._blend is None or self._alpha != self.settings.alpha or self._blended != wanted[:done]:
             self._forget_sums()
             self._alpha, done = self.settings.alpha, 0
@@ -191,11 +202,13 @@ class Colorizer:
                     self._blend.add(field, wanted[index][1])
                     self._blended.append(wanted[index])
                     self._hold(wanted[index][0], field)
+                    if near is not None:
+                        near[0][:, index] = field[np.unravel_index(pixels, self.scan.shape)]
                     progress((index + 1) / len(wanted), f"Seed {index + 1} of {len(wanted)}")
             except BaseException:
                 control.cancel()
                 raise
-        return self._blend.mean()
+        return self._blend.mean(), near
 
     def _field_later(self, pool, pixel, control):
         field = self._fields.get(pixel)
@@ -223,8 +236,11 @@ class Colorizer:
                 control.cancel()
                 raise
 
-    def _krige(self, pixels, chrominance, progress, cancelled):
-        """Return the (2, H, W) float32 chrominance estimated by kriging; 0 where not valid."""
+    def _krige(self, pixels, chrominance, path_residuals, progress, cancelled):
+        """Return the (2, H, W) float32 chrominance estimated by kriging, 0 where not valid, and its share."""
+        progress(_PROPAGATED, "Estimating by kriging")
+        if cancelled():
+            raise Cancelled
         if self._features is None:
             self._features = pixel_features(self.scan, self._smoothed)
         kriging = Kriging(self._features[pixels], chrominance)
@@ -246,7 +262,8 @@ class Colorizer:
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
-        return np.moveaxis(estimate.reshape(*self.scan.shape, 2), -1, 0)
+        estimate = np.moveaxis(estimate.reshape(*self.scan.shape, 2), -1, 0)
+        return estimate, share(kriging.residuals, path_residuals, self.settings.kriging)
 
 
 def _awaited(later, control, tell, cancelled):

@@ -130,6 +130,33 @@ def merge(gray, chrominance_image, color_space):
     return rgb
 
 
+def lost_levels(rgb, chrominance_image, color_space):
+    """Return how much of the chrominance was clipped away, because no sRGB color of that luminance has it.
+
+    Parameters
+    ----------
+    rgb : (H, W, 3) uint8
+        What ``merge`` made.
+    chrominance_image : (H, W, 2) float
+        What it was given.
+    color_space : str
+        One of ``settings.COLOR_SPACES``.
+
+    Returns
+    -------
+    (H, W) float32
+        8-bit levels, as ``levels_per_unit`` has them; what rounding alone can do counts as none.
+    """
+    levels = np.empty(rgb.shape[:2], np.float32)
+    scale = levels_per_unit(color_space)
+    rows = max(1, _CHUNK_PIXELS // max(1, rgb.shape[1]))
+    for top in range(0, rgb.shape[0], rows):
+        strip = slice(top, top + rows)
+        difference = chrominance(rgb[strip], color_space) - chrominance_image[strip]
+        levels[strip] = np.hypot(difference[..., 0], difference[..., 1]) * scale
+    return np.maximum(levels - 1, 0)
+
+
 def levels_per_unit(color_space):
     """Return how many 8-bit levels of red, green or blue one unit of chrominance is worth, at most, at middle gray."""
     space, gray, step = _SPACES[color_space], np.full(2, 127.5), 1e-3

@@ -49,8 +49,13 @@ class NativeEngine:
         return kernel.Blend(self.shape, alpha)
 
     def nearest(self, pixels, colors, alpha, k, control):
-        """Return the mean over the k nearest seeds of every pixel, and its (H, W) bound."""
-        return kernel.blend_nearest(*kernel.nearest(self._graph, pixels, k, control=control), colors, alpha)
+        """Return the mean over the k nearest seeds of every pixel, its (H, W) bound, and those of the seeds' pixels.
+
+        The last are (S, k) distances and (S, k) seeds.
+        """
+        distances, seeds = kernel.nearest(self._graph, pixels, k, control=control)
+        place = np.unravel_index(pixels, self.shape)
+        return *kernel.blend_nearest(distances, seeds, colors, alpha), (distances[place], seeds[place])
 
 
 class ScipyEngine:
@@ -82,7 +87,7 @@ class ScipyEngine:
         return Blend(self.shape, alpha)
 
     def nearest(self, pixels, colors, alpha, k, control):
-        """Return the mean over the k nearest seeds of every pixel, and its (H, W) bound."""
+        """Return the mean over the k nearest seeds of every pixel, its (H, W) bound, and those of the seeds' pixels."""
         distances = np.full((*self.shape, k + 1), np.inf, np.float32)
         seeds = np.full((*self.shape, k + 1), -1, np.int32)
         for seed, pixel in enumerate(pixels):
@@ -91,7 +96,9 @@ class ScipyEngine:
             order = np.argsort(distances, axis=-1, kind="stable")
             distances, seeds = (np.take_along_axis(array, order, axis=-1) for array in (distances, seeds))
             control.done = seed + 1
-        return blend_nearest(distances[..., :k], seeds[..., :k], colors, alpha)
+        distances, seeds = distances[..., :k], seeds[..., :k]
+        place = np.unravel_index(pixels, self.shape)
+        return *blend_nearest(distances, seeds, colors, alpha), (distances[place], seeds[place])
 
 
 class _Flag:

@@ -23,6 +23,7 @@ adds n roundings, so that a distance d lies within (n + 7) u d of the exact one.
 
 import ctypes
 import functools
+import mmap
 import threading
 from typing import NamedTuple
 
@@ -34,6 +35,7 @@ ABI_VERSION = 1
 MAX_NEAREST = 1024
 
 _OK, _CANCELLED, _MEMORY = 0, 1, 2
+_NO_MEMORY = "the geodesic kernel ran out of memory: use a larger stride or fewer nearest seeds"
 _REFUSED = {
     -1: "a null pointer",
     -2: "an image that is empty or too large for 32-bit pixel indices",
@@ -67,11 +69,11 @@ _FUNCTIONS = {
     "rc_plane_size": (_i64, _i64, _i64),
     "rc_graph_fill": (_i32, _i64, _i64, _i32, _pointer, _i64, _pointer, _i64, _pointer, _i64, _pointer, _pointer),
     "rc_field": (_i32, _graph_pointer, _i64, _pointer, _pointer, _pointer, _control_pointer),
-    "rc_nearest": (_i32, _graph_pointer, _i64, _pointer, _i32, _pointer, _pointer, _control_pointer),
+    "rc_nearest": (_i32, _graph_pointer, _i64, _pointer, _i32, _pointer, _control_pointer),
     "rc_blend_add": (_i32, _i64, _i64, _pointer, _i64, _f32, _i32, _f32, _f32, *[_pointer] * 5),
     "rc_blend_finish": (_i32, _i64, _pointer, _pointer, _pointer),
     "rc_blend_nearest": (
-        *(_i32, _i64, _i64, _i64, _i64, _i32, _pointer, _pointer, _i64, _pointer, _f32),
+        *(_i32, _i64, _i64, _i64, _i64, _i32, _pointer, _i64, _pointer, _f32),
         *[_pointer] * 4,
     ),
 }
@@ -121,7 +123,7 @@ def _check(code):
     if code == _CANCELLED:
         raise Cancelled
     if code == _MEMORY:
-        raise MemoryError("the geodesic kernel ran out of memory: use a larger stride or fewer nearest seeds")
+        raise MemoryError(_NO_MEMORY)
     if code != _OK:
         raise ReflcolorError(f"the geodesic kernel refused {_REFUSED.get(code, f'its arguments (code {code})')}")
 
@@ -214,10 +216,15 @@ class Graph:
         """Bytes that the graph holds."""
         return self._y.nbytes + self._d.nbytes
 
-    def _plane(self, dtype, depth=1):
-        """A plane of the kernel with ``depth`` values per pixel, and its inner (H, W[, depth]) view."""
+    def _plane(self, depth=1):
+        """A plane of the kernel with ``depth`` values per pixel, and its inner (H, W, depth) view, both float32."""
         height, width = self.shape
-        plane = np.empty(self._y.size * depth, dtype)
+        # Straight from the system: page-aligned, so that a pixel's values lie in as few cache lines as they can, and in
+        # small pages, which a propagation fills faster than the huge ones that NumPy asks for.
+        try:
+            plane = np.frombuffer(mmap.mmap(-1, self._y.size * depth * 4), np.float32)
+        except (OSError, OverflowError) as error:
+            raise MemoryError(_NO_MEMORY) from error
         grid = plane[: (height + 2) * (width + 2) * depth].reshape(height + 2, width + 2, depth)[1:-1, 1:-1]
         return plane, grid
 
@@ -265,7 +272,7 @@ def field(graph, pixels, *, start=None, control=None):
     pixels = graph._pixels(pixels)
     if start is not None:
         start = np.ascontiguousarray(np.broadcast_to(np.asarray(start, np.float32), pixels.shape))
-    plane, grid = graph._plane(np.float32)
+    plane, grid = graph._plane()
     first = None if start is None else _address(start)
     _check(_library().rc_field(graph._c, pixels.size, _address(pixels), first, _address(plane), _control(control)))
     return grid[..., 0]
@@ -297,11 +304,9 @@ def nearest(graph, pixels, k, *, control=None):
     pixels = graph._pixels(pixels)
     if not 1 <= k <= MAX_NEAREST:
         raise ReflcolorError(f"the number of nearest seeds must be 1 to {MAX_NEAREST}, found {k}")
-    distance_plane, distances = graph._plane(np.float32, k)
-    seed_plane, seeds = graph._plane(np.int32, k)
-    planes = _address(distance_plane), _address(seed_plane)
-    _check(_library().rc_nearest(graph._c, pixels.size, _address(pixels), k, *planes, _control(control)))
-    return distances, seeds
+    plane, grid = graph._plane(2 * k)
+    _check(_library().rc_nearest(graph._c, pixels.size, _address(pixels), k, _address(plane), _control(control)))
+    return grid[..., :k], grid[..., k:].view(np.int32)
 
 
 class Mean(NamedTuple):
@@ -455,7 +460,7 @@ def blend_nearest(distances, seeds, colors, alpha):
     """
     height, width, k = distances.shape
     colors = _colors(colors)
-    plane, seed_plane = (_plane_of(array, dtype) for array, dtype in ((distances, np.float32), (seeds, np.int32)))
+    labels = _labels(distances, seeds)
     if not 0 <= alpha <= np.finfo(np.float32).max:
         raise ReflcolorError(f"alpha must be finite and at least 0, found {alpha}")
     chroma = np.empty((2, height, width), np.float32)
@@ -463,7 +468,7 @@ def blend_nearest(distances, seeds, colors, alpha):
     outputs = map(_address, (weight, *chroma, bound))
     _check(
         _library().rc_blend_nearest(
-            *(height, width, 0, height, k, plane, seed_plane, len(colors), _address(colors), alpha), *outputs
+            *(height, width, 0, height, k, labels, len(colors), _address(colors), alpha), *outputs
         )
     )
     return Mean(chroma, weight, seeds[..., 0].copy(), distances[..., 0].copy()), bound
@@ -479,10 +484,16 @@ def _colors(colors, count=None):
     return colors
 
 
-def _plane_of(grid, dtype):
-    """Address of the plane that an inner (H, W, k) view belongs to."""
-    _, width, k = grid.shape
-    row = (width + 2) * k * grid.itemsize
-    if grid.dtype != dtype or grid.strides != (row, k * grid.itemsize, grid.itemsize) or grid.base is None:
+def _labels(distances, seeds):
+    """Address of the plane that the views `nearest` returned lie in."""
+    _, width, k = distances.shape
+    pixel = 2 * k * 4
+    strides = ((width + 2) * pixel, pixel, 4)
+    if (
+        (distances.dtype, seeds.dtype) != (np.float32, np.int32)
+        or not distances.shape == seeds.shape
+        or not distances.strides == seeds.strides == strides
+        or _address(seeds) != _address(distances) + 4 * k
+    ):
         raise ReflcolorError("distances and seeds must be the arrays that `nearest` returned")
-    return _address(grid) - row - k * grid.itemsize
+    return _address(distances) - strides[0] - strides[1]

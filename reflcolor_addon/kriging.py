@@ -34,6 +34,9 @@ MAX_SEEDS = 8000
 # A seed whose error is this many times the median is noisy; its nugget grows with the excess, to the limit.
 _OUTLIER = 4.0
 _OUTLIER_GAIN, _OUTLIER_LIMIT = 0.1, 5.0
+# What is expected of the share of kriging counts as much as this many seeds.
+_SHARE_SEEDS = 30
+_SHARES = np.linspace(0, 1, 21)
 # Seeds are left out one by one in groups of at most this many: the cost grows with the cube.
 _GROUP = 1000
 # Of the matrix of covariances between pixels and seeds that is held at once.
@@ -78,11 +81,15 @@ class Kriging:
         self._features = np.asarray(features, np.float64)
         colors = np.asarray(colors, np.float64)
         covariance = _covariance(self._features, self._features)
-        weights = np.linalg.solve(
-            covariance + np.diag(_nuggets(covariance, colors)), np.column_stack([np.ones(len(colors)), colors])
-        )
+        groups = _groups(len(colors))
+        nuggets = _nuggets(covariance, colors, groups)
+        weights = np.linalg.solve(covariance + np.diag(nuggets), np.column_stack([np.ones(len(colors)), colors]))
         self._mean = weights[:, 1:].sum(axis=0) / weights[:, 0].sum()
         self._weights = weights[:, 1:] - weights[:, :1] * self._mean
+        self.residuals = np.empty_like(colors)
+        """(S, 2): color of each seed, less what is estimated from the others."""
+        for group in groups:
+            self.residuals[group], _ = _residuals(covariance[np.ix_(group, group)], colors[group], nuggets[group])
 
     def chunks(self, count):
         """Return slices that part ``count`` pixels so that each part fits well into memory."""
@@ -106,28 +113,50 @@ def _covariance(one, other):
     return np.exp(squared, out=squared)
 
 
-def _nuggets(covariance, colors):
+def share(kriging_residuals, path_residuals, expected):
+    """Return the share of kriging, the rest being eq. 1, that would have estimated the left-out seeds best.
+
+    Parameters
+    ----------
+    kriging_residuals, path_residuals : (S, 2) float
+        Color of each seed, less the estimate of either from the others.
+    expected : float, 0 to 1
+        What the share is drawn to, the more so the fewer seeds there are.
+    """
+    errors = [np.linalg.norm(s * kriging_residuals + (1 - s) * path_residuals, axis=1).sum() for s in _SHARES]
+    least = min(errors)
+    if least == 0:
+        return expected
+    count = len(kriging_residuals)
+    cost = count * np.array(errors) / least + _SHARE_SEEDS * (_SHARES - expected) ** 2
+    return float(_SHARES[np.argmin(cost)])
+
+
+def _groups(count):
+    """Index arrays that part the seeds evenly, each small enough to leave its seeds out one by one."""
+    number = -(-count // _GROUP)
+    return [np.arange(first, count, number) for first in range(number)]
+
+
+def _nuggets(covariance, colors, groups):
     """(S,) nuggets: the one of NUGGETS that foretells left-out seeds best, more for seeds that fit badly."""
-    count = len(colors)
-    groups = [np.arange(first, count, -(-count // _GROUP)) for first in range(-(-count // _GROUP))]
     parts = [(covariance[np.ix_(group, group)], colors[group]) for group in groups]
-    errors = [[_left_out_errors(*part, nugget) for part in parts] for nugget in NUGGETS]
-    totals = [sum(np.sqrt(squared).sum() for squared, _ in nugget) for nugget in errors]
+    trials = [[_residuals(*part, np.full(len(part[1]), nugget)) for part in parts] for nugget in NUGGETS]
+    totals = [sum(np.linalg.norm(residuals, axis=1).sum() for residuals, _ in trial) for trial in trials]
     best = int(np.argmin(totals))
-    nuggets = np.empty(count)
-    for group, (squared, precision) in zip(groups, errors[best], strict=True):
+    nuggets = np.empty(len(colors))
+    for group, (residuals, precision) in zip(groups, trials[best], strict=True):
         # Relative to what the covariance alone lets expect.
-        error = np.sqrt(squared * precision)
+        error = np.linalg.norm(residuals, axis=1) * np.sqrt(precision)
         median = np.median(error)
         excess = (error / median / _OUTLIER) ** 2 - 1 if median > 0 else np.zeros(len(group))
         nuggets[group] = NUGGETS[best] + np.clip(_OUTLIER_GAIN * excess, 0, _OUTLIER_LIMIT)
     return nuggets
 
 
-def _left_out_errors(covariance, colors, nugget):
-    """(S,) squared errors of estimating each seed from all others, and (S,) reciprocal variances of these errors."""
-    inverse = np.linalg.inv(covariance + nugget * np.eye(len(colors)))
+def _residuals(covariance, colors, nuggets):
+    """(S, 2) colors less what is estimated from the other seeds, and (S,) reciprocal variances of that."""
+    inverse = np.linalg.inv(covariance + np.diag(nuggets))
     mean = (inverse @ colors).sum(axis=0) / inverse.sum()
     precision = np.diag(inverse)
-    residual = inverse @ (colors - mean) / precision[:, None]
-    return np.einsum("ij,ij->i", residual, residual), precision
+    return inverse @ (colors - mean) / precision[:, None], precision

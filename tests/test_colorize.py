@@ -372,7 +372,7 @@ def test_the_nearest_seeds_differ_from_all_by_no_more_than_the_bound(data, grid,
     colors = np.random.default_rng(rows.size).uniform(-128, 128, (rows.size, 2)).astype(np.float32)
     engine = engine_for(graph)
     pixels = np.ravel_multi_index((rows, cols), valid.shape)
-    mean, bound = engine.nearest(pixels, colors, alpha, min(k, rows.size), engine.control())
+    mean, bound, _ = engine.nearest(pixels, colors, alpha, min(k, rows.size), engine.control())
     expected = reference_blend(geodesic_distances(graph, rows, cols), colors, alpha)
     reached = np.isfinite(mean.least)
     assert (reached == ~np.isnan(expected[..., 0])).all()

@@ -198,3 +198,15 @@ def _running_timers(bpy) -> list[str]:
     modules = [module for name, module in sys.modules.items() if name.startswith(EXTENSION)]
     functions = [function for module in modules for _, function in inspect.getmembers(module, inspect.isfunction)]
     return [function.__qualname__ for function in functions if bpy.app.timers.is_registered(function)]
+
+
+def test_every_class_is_registered(blender):
+    defined = {
+        cls
+        for module_name, module in list(sys.modules.items())
+        if module_name.startswith((f"{EXTENSION}.operators.", f"{EXTENSION}.panels."))
+        for name, cls in vars(module).items()
+        if isinstance(cls, type) and (name.startswith("REFLCOLOR_") or issubclass(cls, blender.types.PropertyGroup))
+    } - {blender.types.PropertyGroup}
+    assert len(defined) > 20
+    assert [cls.__name__ for cls in defined if not cls.is_registered] == []

@@ -1,6 +1,5 @@
 """Every method on every scan."""
 
-import statistics
 import time
 
 import numpy as np
@@ -30,9 +29,9 @@ def measure(name, count):
     Returns
     -------
     dict
-        ``scan``, ``seeds`` and ``figures``: by method, what ``evaluate`` returns and, for those of this project, ``seconds``
-        and ``confidence`` (rank correlation of confidence and error; mean error of the more confident half and of the
-        other).
+        ``scan``, ``seeds``, ``count`` and ``figures``: by method, what ``evaluate`` returns and, for those of this
+        project, ``seconds`` and ``confidence`` (rank correlation of confidence and error; mean error of the more
+        confident half and of the other).
     """
     scan, known = load(name)
     seeds = perfect_seeds(scan, known, count)
@@ -63,13 +62,3 @@ def _confidence(result, scan, known):
         "upper_half": float(errors[order[:half]].mean()),
         "lower_half": float(errors[order[half:]].mean()),
     }
-
-
-def timed(scan, seeds, settings, runs=3):
-    """Return the median seconds of colorizing."""
-    seconds = []
-    for _ in range(runs):
-        start = time.perf_counter()
-        colorize(scan, seeds, settings)
-        seconds.append(time.perf_counter() - start)
-    return statistics.median(seconds)

@@ -25,7 +25,7 @@ def table(results, count, part="color_alone"):
 def summary(results):
     """The ratio of "Enhanced" to Levin's and to "Paper", by half and number of seeds, and its worst cases."""
     lines = [
-        "| scans | seeds | CIEDE2000 to Levin's | worst | to Paper's | worst | p95 to Levin's | PSNR over Levin's, least |",
+        "| scans | seeds | mean to Levin's | worst | to Paper's | worst | 95 % to Levin's | PSNR over Levin's, worst |",
         "|---|---|---|---|---|---|---|---|",
     ]
     halves = {"chosen on": CHOSEN_ON, "others": OTHERS, "all": CHOSEN_ON + OTHERS}

@@ -35,7 +35,7 @@ def write_scan(scan, model, path):
     writers.write_image_pair(scan, path, azimuth_deg=model.azimuth_deg, elevation_deg=model.elevation_deg)
 
 
-def pick_seeds(scan, model, photos, targets):
+def pick_seeds(scan, model, photos, targets, *, leave_out=False):
     """Pick seeds as a person would: a place in the scene, found in the scan and, if a photo shows it, in the photo.
 
     Parameters
@@ -43,16 +43,23 @@ def pick_seeds(scan, model, photos, targets):
     scan : Scan
     model : ScannerModel
     photos : dict of str to Photo
-        The first that shows a place gives the color.
-    targets : sequence of (what, (x, y, z), rgb or None)
-        ``rgb`` is the color to type in instead of a point of a photo.
+        The first that shows a place, or the other place of its color, gives the color.
+    targets : sequence of (what, (x, y, z)[, rgb or None[, (x, y, z)]])
+        ``rgb`` is the color to type in instead of a point of a photo; the last is another place of that color, for
+        where no photo shows the first.
+    leave_out : bool
+        Pick nothing for a target that no photo shows; else that is an error.
 
     Returns
     -------
     list of dict
         Entries of a seeds file.
     """
-    return [_seed(scan, model, photos, *target) for target in targets]
+    entries = [_seed(scan, model, photos, *target) for target in targets]
+    unseen = [target[0] for target, entry in zip(targets, entries, strict=True) if entry is None]
+    if unseen and not leave_out:
+        raise ValueError(f"no photo shows these, nor what is like them; give their rgb: {', '.join(unseen)}")
+    return [entry for entry in entries if entry is not None]
 
 
 def write_seeds(entries, path):
@@ -63,7 +70,7 @@ def write_seeds(entries, path):
         temporary.write_text(text, encoding="utf-8")
 
 
-def _seed(scan, model, photos, what, place, rgb):
+def _seed(scan, model, photos, what, place, rgb=None, like=None):
     local = np.linalg.inv(scan.pose) @ [*place, 1]
     azimuth = np.degrees(np.arctan2(local[0], local[1]))
     elevation = np.degrees(np.arctan2(local[2], np.hypot(local[0], local[1])))
@@ -75,11 +82,12 @@ def _seed(scan, model, photos, what, place, rgb):
         raise ValueError(f"{what}: the scanner does not see {place}, but {scan.pose[:3] @ [*point, 1]}")
     if rgb is not None:
         return {"row": row, "col": col, "rgb": list(rgb)}
+    places = [scan.pose[:3] @ [*point, 1]] + ([] if like is None else [np.asarray(like)])
     for name, photo in photos.items():
-        x, y = photo.shows(scan.pose[:3] @ [*point, 1])
-        if np.isfinite(x):
-            return {"row": row, "col": col, "photo": name, "x": round(float(x), 1), "y": round(float(y), 1)}
-    raise ValueError(f"{what}: no photo shows {place}; give its rgb")
+        for x, y in map(photo.shows, places):
+            if np.isfinite(x):
+                return {"row": row, "col": col, "photo": name, "x": round(float(x), 1), "y": round(float(y), 1)}
+    return None
 
 
 def camera_off_line(scanner_position, target, degrees_off, *, focal_px, size=(800, 600), nearness=1.0, rise_m=0.15):

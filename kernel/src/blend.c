@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "labels.h"
 #include "power.h"
 #include "reflcolor_kernel.h"
 
@@ -72,11 +73,11 @@ static float farthest(float mean, float least, float most)
     return most - mean > mean - least ? most - mean : mean - least;
 }
 
-int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t row1, int32_t k,
-                         const float *distances, const int32_t *seeds, int64_t count, const float *colors,
-                         float alpha, float *weight, float *color0, float *color1, float *bound)
+int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t row1, int32_t k, void *labels,
+                         int64_t count, const float *colors, float alpha, float *weight, float *color0,
+                         float *color1, float *bound)
 {
-    if (!distances || !seeds || !colors || !weight || !color0 || !color1) {
+    if (!labels || !colors || !weight || !color0 || !color1) {
         return RC_BAD_POINTER;
     }
     if (rc_plane_size(height, width) < 0 || row0 < 0 || row1 < row0 || row1 > height || count < 1 ||
@@ -97,9 +98,9 @@ int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t ro
     const rc_power power = rc_power_of(alpha);
     for (int64_t row = row0; row < row1; row++) {
         for (int64_t c = 0; c < width; c++) {
-            const int64_t at = ((row + 1) * (width + 2) + c + 1) * k, out = row * width + c;
-            const float *const r = distances + at;
-            const int32_t *const id = seeds + at;
+            const int64_t p = (row + 1) * (width + 2) + c + 1, out = row * width + c;
+            const float *const r = rc_distances(labels, k, p);
+            const int32_t *const id = rc_seeds(labels, k, p);
             float relative[RC_MAX_NEAREST], w = 0.0f, c0 = 0.0f, c1 = 0.0f;
             int32_t n = 0;
             for (; n < k && id[n] >= 0; n++) {

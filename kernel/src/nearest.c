@@ -9,13 +9,15 @@
 
 #include "bounds.h"
 #include "check.h"
+#include "labels.h"
 #include "march.h"
 
-/* Entries ahead of the one at work whose lists are called into the cache. */
-#define RC_AHEAD 8
+/* Entries ahead of the one at work whose lists are called into the cache, past the levels that the
+ * propagation lives in. */
+#define RC_AHEAD 16
 
-/* Insert (d, j) into a list of k ascending places, behind its equals; the last place is lost. Branchless: where to
- * insert cannot be foreseen. */
+/* Insert (d, j) into a list of k ascending places, behind its equals; the last place is lost. Nothing branches: where
+ * to insert cannot be foreseen. */
 static inline void insert(float *list, int32_t *ids, int32_t k, float d, int32_t j)
 {
     const int32_t whole = k & ~3;
@@ -41,43 +43,42 @@ static inline void insert(float *list, int32_t *ids, int32_t k, float d, int32_t
 
 /* Insert seed j into the lists of all pixels it settled, and make `current` each list's last distance again. */
 static void insert_trail(const rc_steps *steps, const rc_trail *trail, uint8_t *flags, int32_t k, int32_t j,
-                         float *distances, int32_t *seeds, float *current)
+                         void *labels, float *current)
 {
     for (int64_t n = 0; n < trail->used; n++) {
         if (n + RC_AHEAD < trail->used) {
-            const int64_t ahead = (int64_t)trail->pixel[n + RC_AHEAD] * k;
-            for (int32_t i = 0; i < k; i += 16) {
-                __builtin_prefetch(distances + ahead + i, 1);
-                __builtin_prefetch(seeds + ahead + i, 1);
+            const float *const ahead = rc_distances(labels, k, trail->pixel[n + RC_AHEAD]);
+            for (int32_t i = 0; i < 2 * k; i += 16) {
+                __builtin_prefetch(ahead + i, 0, 0);
             }
         }
         const int32_t p = trail->pixel[n];
-        float *const list = distances + (int64_t)p * k;
-        insert(list, seeds + (int64_t)p * k, k, current[p], j);
+        float *const list = rc_distances(labels, k, p);
+        insert(list, rc_seeds(labels, k, p), k, current[p], j);
         rc_set(steps, current, p, list[k - 1]);
         flags[p] = 0;
     }
 }
 
 /* Start all lists: k places that hold the pixel's bound and no seed. */
-static void clear_lists(int64_t size, int32_t k, const float *current, float *distances, int32_t *seeds)
+static void clear_lists(int64_t size, int32_t k, const float *current, void *labels)
 {
     for (int64_t p = 0; p < size; p++) {
-        for (int64_t i = p * k; i < (p + 1) * k; i++) {
-            distances[i] = current[p];
-            seeds[i] = -1;
+        float *const list = rc_distances(labels, k, p);
+        int32_t *const ids = rc_seeds(labels, k, p);
+        for (int32_t i = 0; i < k; i++) {
+            list[i] = current[p];
+            ids[i] = -1;
         }
     }
 }
 
-/* Make empty places infinite. Returns 0 if a list that a finite bound promised to fill has an empty place. */
-static int close_lists(int64_t size, int32_t k, float *distances, const int32_t *seeds)
+/* Whether every list that a finite bound promised to fill is full. */
+static int lists_full(int64_t size, int32_t k, void *labels)
 {
     for (int64_t p = 0; p < size; p++) {
-        if (seeds[p * k + k - 1] < 0) {
-            if (distances[p * k + k - 1] < INFINITY) {
-                return 0;
-            }
+        if (rc_seeds(labels, k, p)[k - 1] < 0 && rc_distances(labels, k, p)[k - 1] < INFINITY) {
+            return 0;
         }
     }
     return 1;
@@ -85,7 +86,7 @@ static int close_lists(int64_t size, int32_t k, float *distances, const int32_t 
 
 static int32_t march_seeds(const rc_steps *steps, const rc_graph *graph, rc_queue *queue, rc_trail *trail,
                            int64_t count, const int64_t *pixels, int32_t k, float *current, uint8_t *flags,
-                           float *distances, int32_t *seeds, const rc_control *control)
+                           void *labels, const rc_control *control)
 {
     const rc_control quiet = {control->cancel, NULL};
     for (int64_t j = 0; j < count; j++) {
@@ -100,14 +101,14 @@ static int32_t march_seeds(const rc_steps *steps, const rc_graph *graph, rc_queu
         if (code != RC_OK) {
             return code;
         }
-        insert_trail(steps, trail, flags, k, (int32_t)j, distances, seeds, current);
+        insert_trail(steps, trail, flags, k, (int32_t)j, labels, current);
         rc_progress(control, 1);
     }
     return RC_OK;
 }
 
-int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, float *distances,
-                   int32_t *seeds, const rc_control *control)
+int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, void *labels,
+                   const rc_control *control)
 {
     static const rc_control none = {NULL, NULL};
     int32_t code = rc_check_graph(graph);
@@ -117,7 +118,7 @@ int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, 
     if (code != RC_OK) {
         return code;
     }
-    if (!distances || !seeds) {
+    if (!labels) {
         return RC_BAD_POINTER;
     }
     if (k < 1 || k > RC_MAX_NEAREST) {
@@ -134,7 +135,7 @@ int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, 
     code = queue && current && flags ? RC_OK : RC_MEMORY;
     if (code == RC_OK) {
         /* The lists' own memory serves as scratch before they are begun. */
-        code = rc_bounds(&steps, graph, queue, count, pixels, k, current, flags, seeds, control);
+        code = rc_bounds(&steps, graph, queue, count, pixels, k, current, flags, labels, control);
     }
     for (int bounded = 1; code == RC_OK; bounded = 0) {
         if (!bounded) {
@@ -142,11 +143,10 @@ int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, 
                 current[i] = INFINITY;
             }
         }
-        clear_lists(size, k, current, distances, seeds);
-        code = march_seeds(&steps, graph, queue, &trail, count, pixels, k, current, flags, distances,
-                           seeds, control);
+        clear_lists(size, k, current, labels);
+        code = march_seeds(&steps, graph, queue, &trail, count, pixels, k, current, flags, labels, control);
         /* Rounding could in principle make a bound too low; then a list stays short, and all is done without. */
-        if (code != RC_OK || !bounded || close_lists(size, k, distances, seeds)) {
+        if (code != RC_OK || !bounded || lists_full(size, k, labels)) {
             break;
         }
     }

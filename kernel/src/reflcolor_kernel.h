@@ -46,7 +46,7 @@ typedef struct {
 } rc_graph;
 
 /* Both members may be null. `cancel` is polled; any value but 0 makes the call return RC_CANCELLED soon.
- * `progress` is added to, atomically: pixels for rc_field, rows for the blending, seeds for rc_nearest. */
+ * `progress` is added to, atomically: pixels by rc_field, seeds by rc_nearest. */
 typedef struct {
     const volatile int32_t *cancel;
     int64_t *progress;
@@ -67,11 +67,11 @@ RC_API int32_t rc_graph_fill(int64_t height, int64_t width, int32_t wrap, const 
 RC_API int32_t rc_field(const rc_graph *graph, int64_t count, const int64_t *pixels, const float *start, float *plane,
                         const rc_control *control);
 
-/* The k nearest of `count` seeds of every pixel, distances ascending, the lower seed first among equals.
- * `distances` and `seeds` are k values per plane entry (rc_plane_size(...) * k each); unused places hold
- * infinity and -1. */
-RC_API int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, float *distances,
-                          int32_t *seeds, const rc_control *control);
+/* The k nearest of `count` seeds of every pixel, distances ascending, the lower seed first among equals. `labels`
+ * holds 2 k words of 32 bits per plane entry (rc_plane_size(...) * 2 * k): k float distances, then k int32 seeds; unused
+ * places hold infinity and -1. */
+RC_API int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, void *labels,
+                          const rc_control *control);
 
 /* Equation 1, one seed at a time, for a seed that lies `field` away (rows of field_stride floats). The sums are kept
  * relative to the nearest seed so far: weight = sum (r / nearest)^-alpha, color0 and color1 the same with the seed's
@@ -84,10 +84,10 @@ RC_API int32_t rc_blend_add(int64_t height, int64_t width, const float *field, i
 RC_API int32_t rc_blend_finish(int64_t count, const float *weight, float *color0, float *color1);
 
 /* Equation 1 over the k labels of every pixel of one row range [row0, row1) of rc_nearest's result.
- * `colors` holds two floats per seed. `bound` (may be null) receives the most that the seeds left out could change
+ * `labels` is only read. `colors` holds two floats per seed. `bound` (may be null) receives the most that the seeds left out could change
  * either chrominance by, given that `count` seeds exist. Outputs are height x width, contiguous. */
-RC_API int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t row1, int32_t k,
-                                const float *distances, const int32_t *seeds, int64_t count, const float *colors,
-                                float alpha, float *weight, float *color0, float *color1, float *bound);
+RC_API int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t row1, int32_t k, void *labels,
+                                int64_t count, const float *colors, float alpha, float *weight, float *color0,
+                                float *color1, float *bound);
 
 #endif

@@ -36,14 +36,13 @@ def described(image, labels, count):
     squared = mean(reflectance**2) - mean_reflectance**2
     fine = np.abs(image.reflectance - cv2.GaussianBlur(image.reflectance, (0, 0), 1.5))
     coarse = np.abs(image.reflectance - cv2.GaussianBlur(image.reflectance, (0, 0), 5.0))
-    slope = _upward(image)
     columns = [
         mean_reflectance * 2,
         np.sqrt(np.maximum(squared, 0)),
         mean(fine),
         mean(coarse),
         *(mean(image.features[..., channel]) for channel in (1, 2)),
-        mean(slope),
+        mean(np.abs(image.normals[..., 2])),
         mean(image.points[..., 2]),
         mean(np.log(np.maximum(image.range, 1e-3))),
     ]
@@ -126,13 +125,3 @@ def _nearest(wanted, known, chrominance):
     usual = np.linalg.norm(chrominance - chrominance.mean(axis=0), axis=1).mean() + 1e-6
     opinion = np.linalg.norm(colors - colors.mean(axis=1, keepdims=True), axis=2).mean(axis=1) / usual
     return colors.mean(axis=1), near, opinion + distance.mean(axis=1) / np.sqrt(wanted.shape[1])
-
-
-def _upward(image):
-    """(h, w): the vertical part of the surface's normal, 0 (wall) to 1 (floor)."""
-    import cv2
-
-    right = cv2.Sobel(image.points, cv2.CV_64F, 1, 0)
-    down = cv2.Sobel(image.points, cv2.CV_64F, 0, 1)
-    normal = np.cross(right, down)
-    return np.abs(normal[..., 2]) / np.maximum(np.linalg.norm(normal, axis=-1), 1e-12)

@@ -7,7 +7,7 @@ from .models import Camera
 LEAST_PAIRS = 4
 _FOCALS = (0.5, 0.65, 0.85, 1.1, 1.45, 1.9, 2.5)
 _USUAL_FOCAL = 0.85
-_CAREFUL = 5
+_FOCAL_DOUBT = 2.0
 # A person clicks to about a hundredth of the photo; a pair that is off by more than three of these is a slip.
 _CLICK_SHARE = 0.01
 _ACCEPTED_SHARE = 0.02
@@ -88,8 +88,7 @@ def _polished(camera, points, xy):
         seen, _ = current.project(points)
         off = np.nan_to_num((seen - xy) / longer, nan=1.0) / _CLICK_SHARE
         # Few pairs hardly tell the focal length: then it stays with what photos usually have.
-        doubt = 1.0 if len(points) < _CAREFUL else 0.3
-        return np.append(off.ravel(), doubt * np.log(current.focal_px / longer / _USUAL_FOCAL))
+        return np.append(off.ravel(), _FOCAL_DOUBT * np.log(current.focal_px / longer / _USUAL_FOCAL))
 
     start = np.zeros(len(free))
     if not np.isfinite(residuals(start)).all():

@@ -70,32 +70,34 @@ class PhotoImage:
         return edge_features(filled(image, seen), seen), seen
 
 
-def visible(model, xy, depth, sites_valid, tolerance=0.04):
-    """Return (h, w) bool: which pixels of the scan the photo really sees, by a depth buffer of the scan's own points.
+def visible(model, image, xy, depth, tolerance=0.04):
+    """Return (h, w) bool: which pixels of a `ScanImage` the photo really sees.
+
+    By a depth buffer of the scan's own points. What is hidden by something that the scanner did not see is not found.
 
     Parameters
     ----------
     model : Camera or GridHomography
+    image : ScanImage
     xy, depth : (h, w, 2), (h, w)
         As ``model.project`` gave them for the pixels.
-    sites_valid : (h, w) bool
     tolerance : float
         What lies farther than the nearest in the same place by more than this share is hidden.
     """
     import cv2
 
-    inside = sites_valid & np.isfinite(xy).all(axis=-1) & (depth > 0)
+    inside = image.valid & np.isfinite(xy).all(axis=-1) & (depth > 0)
     inside &= (xy >= 0).all(axis=-1) & (np.nan_to_num(xy) <= [model.width, model.height]).all(axis=-1)
     if model.kind == "homography" or not inside.any():
         return inside
-    cell = 2.0 * spacing(xy, inside)
+    cell = max(2.0 * spacing(xy, inside), max(model.width, model.height) / 2000)
     columns, rows = int(model.width / cell) + 2, int(model.height / cell) + 2
     place = (xy[inside] / cell).astype(int)
     nearest = np.full((rows, columns), np.inf)
     np.minimum.at(nearest, (place[:, 1], place[:, 0]), depth[inside])
-    # A cell that no point fell into would let one see through a surface that is seen at a shallow angle.
-    eroded = cv2.erode(nearest, np.ones((3, 3)), borderType=cv2.BORDER_REPLICATE)
-    nearest = np.where(np.isfinite(nearest), nearest, eroded)
+    # Between its points, too, a surface hides what is behind; closing fills the gaps and leaves the outlines.
+    window = np.ones((5, 5))
+    nearest = cv2.dilate(cv2.erode(np.minimum(nearest, 1e9), window), window)
     seen = inside.copy()
     seen[inside] = depth[inside] <= nearest[place[:, 1], place[:, 0]] * (1 + tolerance)
     return seen
@@ -103,7 +105,10 @@ def visible(model, xy, depth, sites_valid, tolerance=0.04):
 
 def spacing(xy, seen):
     """Return the median distance in the photo between horizontal neighbors of the scan, in pixels; 1 if there are none."""
-    both = seen[:, 1:] & seen[:, :-1]
-    if not both.any():
+    # Over several pixels: where the scan's columns are coarse, neighbors show the same point.
+    reach = min(8, seen.shape[1] - 1)
+    both = seen[:, reach:] & seen[:, : seen.shape[1] - reach]
+    if reach == 0 or not both.any():
         return 1.0
-    return float(max(np.median(np.linalg.norm((xy[:, 1:] - xy[:, :-1])[both], axis=-1)), 1e-3))
+    distance = np.linalg.norm((xy[:, reach:] - xy[:, : seen.shape[1] - reach])[both], axis=-1)
+    return float(max(np.median(distance) / reach, 0.01))

@@ -82,8 +82,7 @@ def surfaces(scan_image, tiles, photo, model, radius):
     """Return the `Surfaces` of a model, or None where the photo shows too little of the scan."""
     sites = model.sites(scan_image)
     xy, depth = model.project(sites)
-    finite = scan_image.valid & np.isfinite(xy).all(axis=-1)
-    seen = visible(model, xy, depth, finite)
+    seen = visible(model, scan_image, xy, depth)
     if np.count_nonzero(seen) < 64 or len(tiles.corners) < _LEAST_TILES:
         return None
     features, seen = photo.features(xy, seen, spacing(xy, seen))

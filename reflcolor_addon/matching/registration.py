@@ -1,6 +1,6 @@
 """Finding the model of one photo: candidates from features and from the search, refined, and judged."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from . import features
 from .refinement import Tiles, fitted, surfaces
 from .scan_image import TONES, ScanImage, pixel_steps, toned
 from .search import FOCALS, SphereMap, map_step, sharpened, viewpoints
-from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged
+from .verification import NEEDED_AT_SCANNER, NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
@@ -91,13 +91,17 @@ def register(views, photo, *, step=lambda text: None):
 
 
 def confirmed(views, photo, model):
-    """Return the `Registration` of a model that is known roughly, refined and judged."""
+    """Return the `Registration` of a model that is known roughly, refined and judged.
+
+    Nothing was searched, so that hardly a wrong model can stand out by chance: the least evidence will do.
+    """
     rng = np.random.default_rng(0)
     best = Registration(None, NO_EVIDENCE, "known")
     for tone in TONES:
         near, _ = refined(views, photo, model, tone, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng)
         for start in (model, near):
             candidate, proof = finely(views, photo, start, tone, rng)
+            proof = replace(proof, needed=NEEDED_AT_SCANNER)
             if proof.rank > best.evidence.rank:
                 best = Registration(candidate, proof, "known")
         if best.accepted:

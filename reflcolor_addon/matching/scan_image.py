@@ -88,6 +88,7 @@ class ScanImage:
         x, y = np.meshgrid((np.arange(w) + 0.5) * width / w, (np.arange(h) + 0.5) * height / h)
         self.grid_xy = np.stack([x, y], axis=-1)
         self._range_weight = range_weight
+        self._scan = scan
 
     @cached_property
     def features(self):
@@ -97,6 +98,18 @@ class ScanImage:
     def directions(self):
         """(h, w, 3) float64: unit vectors from the scanner; zero where not valid."""
         return self.points / np.maximum(self.range, 1e-9)[..., None]
+
+    @cached_property
+    def normals(self):
+        """(h, w, 3) float64: normals of the surface in the scan's grid, of any sign; zero where a neighbor is missing."""
+        points, valid = self._scan.points, self._scan.valid
+        right, down = np.zeros((2, *points.shape))
+        right[:, 1:-1] = (points[:, 2:] - points[:, :-2]) * (valid[:, 2:] & valid[:, :-2])[..., None]
+        down[1:-1] = (points[2:] - points[:-2]) * (valid[2:] & valid[:-2])[..., None]
+        normal = np.cross(right, down)
+        length = np.linalg.norm(normal, axis=-1, keepdims=True)
+        normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 1e-15)
+        return normal[np.ix_(self.rows, self.cols)]
 
 
 def _resampled(image, height, width):

@@ -68,6 +68,7 @@ def blended(views, photo_gains):
     for index, view in enumerate(views):
         if view is None:
             continue
+        # The fourth power of a tenth: a view from behind counts for nothing beside one from the front.
         own = np.where(view.usable, view.quality.astype(np.float64) ** _FAVORING_THE_BEST + 1e-12, 0)
         total += own[..., None] * (srgb8_to_linear(np.rint(view.rgb).astype(np.uint8)) * photo_gains[index])
         weight += own
@@ -84,7 +85,7 @@ def _ratio(first, second):
     for one, other in zip(first, second, strict=True):
         if one is None or other is None:
             continue
-        both = one.usable & other.usable
+        both = one.usable & other.usable & ~one.behind & ~other.behind
         for view in (one, other):
             both &= (view.rgb.min(axis=-1) >= _TRUSTED[0]) & (view.rgb.max(axis=-1) <= _TRUSTED[1])
         light = [srgb8_to_linear(np.rint(view.rgb[both]).astype(np.uint8)) for view in (one, other)]

@@ -177,6 +177,12 @@ def _seen_seeds(place, photos, photo_gains):
     inner[:, 1:] &= labels[:, 1:] == labels[:, :-1]
     inner[1:] &= labels[1:] == labels[:-1]
     depth = cv2.distanceTransform(inner.astype(np.uint8), cv2.DIST_L2, 3)
+    # From the front anywhere in a superpixel before from behind in its middle.
+    behind = np.zeros(usable.shape, bool)
+    for index, view in enumerate(place.shown):
+        if view is not None:
+            behind |= (source == index) & view.behind
+    depth[behind] /= 1000
     rows, cols = np.nonzero(usable)
     label = labels[rows, cols]
     order = np.lexsort((-depth[rows, cols], label))
@@ -191,7 +197,7 @@ def _seen_seeds(place, photos, photo_gains):
         rgb=rgb[rows, cols],
         photos=tuple(photos[index].name for index in photo),
         photo_xy=np.array([place.shown[p].xy[r, c] for p, r, c in zip(photo, rows, cols, strict=True)]),
-        confidence=trust * (0.6 + 0.4 * quality[rows, cols] / best),
+        confidence=trust * np.where(behind[rows, cols], 0.3, 0.6 + 0.4 * quality[rows, cols] / best),
         reason=tuple(place.reports[index][3] if place.reports[index][3] != "hand" else "pose" for index in photo),
     )
     return _Seen(seeds, segments)

@@ -10,6 +10,7 @@ _JUMP = 0.04
 _MARGIN = 2
 _GRAZING = 0.2
 _BORDER_SHARE = 0.005
+_BEHIND = 0.1
 # A pixel that is this dark carries no color; files hold black where they have nothing.
 _DARKEST = 6
 _PATCH = 3
@@ -21,6 +22,9 @@ class View:
 
     usable : (h, w) bool
         Seen, away from jump edges and hidden parts, not at a grazing angle.
+    behind : (h, w) bool
+        Usable, but the camera was behind the surface: it saw the other side of the same thing, which is most often of
+        the same color. Of low quality, for where nothing better is.
     rgb : (h, w, 3) float32
         sRGB, 0..255, the mean of the photo over a pixel of the scan and its neighbors of the same surface.
     quality : (h, w) float32
@@ -30,6 +34,7 @@ class View:
     """
 
     usable: np.ndarray
+    behind: np.ndarray
     rgb: np.ndarray
     quality: np.ndarray
     xy: np.ndarray
@@ -41,23 +46,23 @@ def seen_by(photo, model, image):
 
     sites = model.sites(image)
     xy, depth = model.project(sites)
-    finite = image.valid & np.isfinite(xy).all(axis=-1)
-    seen = visible(model, xy, depth, finite)
+    seen = visible(model, image, xy, depth)
     border = _BORDER_SHARE * max(model.width, model.height)
     inside = (xy >= border).all(axis=-1) & (np.nan_to_num(xy) <= [model.width - border, model.height - border]).all(
         axis=-1
     )
     cosine = _cosine(model, image)
     solid = _opened(seen & ~jumps(image), image.valid)
-    usable = solid & inside & (cosine > _GRAZING)
+    usable = solid & inside & (np.abs(cosine) > _GRAZING)
+    behind = usable & (cosine < 0)
     detail = spacing(xy, seen)
     rgb = _sampled_rgb(photo, xy, usable, detail)
     usable &= rgb.max(axis=-1) >= _DARKEST
     weight = usable.astype(np.float32)
     share = np.maximum(cv2.blur(weight, (_PATCH, _PATCH)), 1e-6)
     rgb = cv2.blur(rgb * weight[..., None], (_PATCH, _PATCH)) / share[..., None]
-    quality = cosine * min(detail, 1.0) * _sharpness(photo, detail)
-    return View(usable, rgb, np.where(usable, quality, 0).astype(np.float32), xy)
+    quality = np.abs(cosine) * np.where(behind, _BEHIND, 1.0) * min(detail, 1.0) * _sharpness(photo, detail)
+    return View(usable, behind & usable, rgb, np.where(usable, quality, 0).astype(np.float32), xy)
 
 
 def jumps(image):
@@ -90,16 +95,18 @@ def _opened(good, valid):
 
 
 def _cosine(model, image):
-    """(h, w): cosine between the surface's normal and the way to the camera; 1 where no camera is known."""
+    """(h, w): cosine between the surface's normal and the way to the camera; 1 where no camera is known.
+
+    The normal points to the scanner, so that it is negative where the camera was on the other side.
+    """
     if model.kind == "homography":
         return np.ones(image.shape)
-    right, down = np.zeros((2, *image.points.shape))
-    right[:, 1:-1] = image.points[:, 2:] - image.points[:, :-2]
-    down[1:-1] = image.points[2:] - image.points[:-2]
-    normal = np.cross(right, down)
     way = model.center - image.points
-    length = np.linalg.norm(normal, axis=-1) * np.linalg.norm(way, axis=-1)
-    return np.where(length > 1e-12, np.abs((normal * way).sum(axis=-1)) / np.maximum(length, 1e-12), 0.5)
+    way /= np.maximum(np.linalg.norm(way, axis=-1, keepdims=True), 1e-12)
+    to_scanner = np.where((image.normals * image.points).sum(axis=-1) <= 0, 1.0, -1.0)
+    cosine = (image.normals * way).sum(axis=-1) * to_scanner
+    # At the rim of a thing a neighbor is missing and the normal unknown: the margins take care of rims.
+    return np.where(image.normals.any(axis=-1), cosine, 0.5)
 
 
 def _sampled_rgb(photo, xy, usable, detail):

@@ -20,7 +20,7 @@ _NEAR = 1.5
 _CHANCE = 0.06
 # What strength is needed where the photo was taken from the scanner's place, and where from anywhere: the more freedom a
 # model has, the more often a wrong one fits by chance.
-_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE = 3.2, 14.0
+NEEDED_AT_SCANNER, _NEEDED_ANYWHERE = 3.2, 14.0
 _ANYWHERE_SHARE = 0.2
 _ACCEPTED_MEAN = 0.85
 _ACCEPTED_TILES = 12
@@ -99,9 +99,9 @@ def evidence(scan_image, photo, model):
 
 def _needed(scan_image, model):
     if model.kind == "homography":
-        return _NEEDED_AT_SCANNER
+        return NEEDED_AT_SCANNER
     share = np.linalg.norm(model.center) / np.median(scan_image.range[scan_image.valid])
-    return float(np.interp(share, [0, _ANYWHERE_SHARE], [_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE]))
+    return float(np.interp(share, [0, _ANYWHERE_SHARE], [NEEDED_AT_SCANNER, _NEEDED_ANYWHERE]))
 
 
 def judged(found):
