@@ -10,6 +10,7 @@ from .colorizer import Colorizer
 from .errors import Cancelled, ImageError, OutputError, ReflcolorError, ScanError, SeedsError, SettingsError
 from .evaluation import evaluate
 from .geodesic import geodesic_distances
+from .matching import draw_matches, match_photos, match_seeds
 from .readers import read_scans
 from .scan import Scan
 from .seeds import Seeds
@@ -29,7 +30,10 @@ __all__ = [
     "Settings",
     "SettingsError",
     "colorize",
+    "draw_matches",
     "evaluate",
     "geodesic_distances",
+    "match_photos",
+    "match_seeds",
     "read_scans",
 ]
