@@ -10,7 +10,6 @@ is. The same sources and the same compiler give the same bytes.
 import argparse
 import base64
 import hashlib
-import os
 import platform
 import subprocess
 import sys
@@ -104,8 +103,7 @@ def pack_wheel(wheel_platform, library_bytes, directory):
             entry.create_system = 3
             entry.external_attr = 0o644 << 16
             wheel.writestr(entry, data, compresslevel=9)
-    os.replace(unfinished, path)
-    return path
+    return unfinished.replace(path)
 
 
 def build_wheel(wheel_platform, directory):

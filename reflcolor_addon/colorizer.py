@@ -89,6 +89,11 @@ class Colorizer:
             kriging = 0.0
             warnings.append(f"kriging is left out: it takes {MAX_SEEDS} seeds at most, found {len(seeds)}")
         propagated = _PROPAGATED if kriging else _COLORED
+        if kriging and self._features is None:
+            # Found while the paths are; after a cancellation nobody waits for it.
+            pool = ThreadPoolExecutor(1, "reflcolor")
+            self._features = pool.submit(pixel_features, self.scan, self._smoothed)
+            pool.shutdown(wait=False)
         mean, method, near = self._propagate(
             pixels, chrominance, lambda done, text: progress(propagated * done, text), cancelled
         )
@@ -239,25 +244,28 @@ class Colorizer:
     def _krige(self, pixels, chrominance, path_residuals, progress, cancelled):
         """Return the (2, H, W) float32 chrominance estimated by kriging, 0 where not valid, and its share."""
         progress(_PROPAGATED, "Estimating by kriging")
-        if cancelled():
-            raise Cancelled
-        if self._features is None:
-            self._features = pixel_features(self.scan, self._smoothed)
-        kriging = Kriging(self._features[pixels], chrominance)
+        while not wait([self._features], _POLL_S).done:
+            if cancelled():
+                raise Cancelled
+        if self._features.exception() is not None:
+            failed, self._features = self._features, None
+            failed.result()
+        features = self._features.result()
+        kriging = Kriging(features[pixels], chrominance)
         estimate = np.zeros((self.scan.valid.size, 2), np.float32)
         inside = np.flatnonzero(self.scan.valid)
 
         def fill(chunk):
-            estimate[inside[chunk]] = kriging.estimate(self._features[inside[chunk]])
+            estimate[inside[chunk]] = kriging.estimate(features[inside[chunk]])
 
         chunks = kriging.chunks(inside.size)
         with ThreadPoolExecutor(self.threads, "reflcolor") as pool:
             running = [pool.submit(fill, chunk) for chunk in chunks]
             try:
                 for done, chunk in enumerate(running, 1):
-                    chunk.result()
                     if cancelled():
                         raise Cancelled
+                    chunk.result()
                     progress(_PROPAGATED + (_COLORED - _PROPAGATED) * done / len(chunks), "Estimating by kriging")
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)

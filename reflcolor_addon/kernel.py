@@ -35,6 +35,8 @@ ABI_VERSION = 1
 MAX_NEAREST = 1024
 
 _OK, _CANCELLED, _MEMORY = 0, 1, 2
+# Blended between two looks at the wish to cancel.
+_PIXELS_AT_ONCE = 1 << 17
 _NO_MEMORY = "the geodesic kernel ran out of memory: use a larger stride or fewer nearest seeds"
 _REFUSED = {
     -1: "a null pointer",
@@ -242,7 +244,7 @@ class Graph:
 
 def _rows(array):
     """The array with its values adjacent along rows and rows not overlapping."""
-    height, width = array.shape
+    width = array.shape[1]
     adjacent = width <= 1 or array.strides[1] == array.itemsize
     apart = array.strides[0] % array.itemsize == 0 and array.strides[0] >= width * array.itemsize
     return array if adjacent and apart and array.size else np.ascontiguousarray(array)
@@ -353,6 +355,7 @@ class Blend:
         seed = self._count if seed is None else seed
         self._count += 1
         distances = _rows(np.asarray(distances, np.float32))
+        color = [float(value) for value in color]
         mean = self._mean
         if distances.shape != mean.weight.shape:
             raise ReflcolorError(f"distances of shape {distances.shape} do not fit an image {mean.weight.shape}")
@@ -440,7 +443,7 @@ def blend_all(graph, pixels, colors, alpha, *, threads=1, control=None, finished
     return blend.mean()
 
 
-def blend_nearest(distances, seeds, colors, alpha):
+def blend_nearest(distances, seeds, colors, alpha, *, control=None):
     """Equation 1 over the k nearest seeds of every pixel.
 
     Parameters
@@ -450,6 +453,7 @@ def blend_nearest(distances, seeds, colors, alpha):
     colors : (S, 2) float
         Chrominance of all seeds.
     alpha : float
+    control : Control, optional
 
     Returns
     -------
@@ -465,12 +469,14 @@ def blend_nearest(distances, seeds, colors, alpha):
         raise ReflcolorError(f"alpha must be finite and at least 0, found {alpha}")
     chroma = np.empty((2, height, width), np.float32)
     weight, bound = np.empty((height, width), np.float32), np.empty((height, width), np.float32)
-    outputs = map(_address, (weight, *chroma, bound))
-    _check(
-        _library().rc_blend_nearest(
-            *(height, width, 0, height, k, labels, len(colors), _address(colors), alpha), *outputs
-        )
-    )
+    outputs = [_address(output) for output in (weight, *chroma, bound)]
+    rows = max(1, _PIXELS_AT_ONCE // width)
+    for row in range(0, height, rows):
+        if control and control.cancelled:
+            raise Cancelled
+        end = min(row + rows, height)
+        arguments = (height, width, row, end, k, labels, len(colors), _address(colors), alpha)
+        _check(_library().rc_blend_nearest(*arguments, *outputs))
     return Mean(chroma, weight, seeds[..., 0].copy(), distances[..., 0].copy()), bound
 
 

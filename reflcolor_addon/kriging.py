@@ -85,7 +85,7 @@ class Kriging:
         nuggets = _nuggets(covariance, colors, groups)
         weights = np.linalg.solve(covariance + np.diag(nuggets), np.column_stack([np.ones(len(colors)), colors]))
         self._mean = weights[:, 1:].sum(axis=0) / weights[:, 0].sum()
-        self._weights = weights[:, 1:] - weights[:, :1] * self._mean
+        self._weights = np.ascontiguousarray((weights[:, 1:] - weights[:, :1] * self._mean).T)
         self.residuals = np.empty_like(colors)
         """(S, 2): color of each seed, less what is estimated from the others."""
         for group in groups:
@@ -98,12 +98,14 @@ class Kriging:
 
     def estimate(self, features):
         """Return the (N, 2) float64 chrominance of pixels with (N, 8) features."""
-        return _covariance(np.asarray(features, np.float64), self._features) @ self._weights + self._mean
+        covariance = _covariance(np.asarray(features, np.float64), self._features)
+        return np.einsum("ns,cs->nc", covariance, self._weights) + self._mean
 
 
 def _covariance(one, other):
     """exp(-|f_i - f_j|) for (N, F) and (S, F) features: (N, S)."""
-    squared = one @ (-2 * other.T)
+    # Not by BLAS, whose own threads would contend with those that estimate chunks.
+    squared = np.einsum("nf,fs->ns", one, np.ascontiguousarray(-2 * other.T))
     squared += np.einsum("ij,ij->i", one, one)[:, None]
     squared += np.einsum("ij,ij->i", other, other)
     # The difference of large numbers may fall below zero.

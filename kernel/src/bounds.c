@@ -1,79 +1,17 @@
-/* Bounds on the k-th least distance from the seeds' Voronoi cells.
- *
- * One propagation from all seeds gives every pixel its nearest seed. Where two cells touch, a path leads from seed to
- * seed; a search on the graph of these paths gives each seed a number u that the distance of its k-th nearest seed (it
- * is its own first) cannot exceed. By the triangle inequality min over seeds s of u(s) + r(p, s) bounds pixel p, and
- * that is one more propagation from all seeds, each starting at its u.
- */
+/* Upper bounds on the k-th least distance: see bounds.h. */
+#include "bounds.h"
+
 #include <math.h>
 
-#include "bounds.h"
 #include "check.h"
+#include "labels.h"
 
 /* Sums of the same path in another order differ by rounding: the bounds are raised by this much. */
 #define RC_BOUND_SLACK 1.001f
+/* Of every so many rows and columns, one pixel's list is looked through for links. */
+#define RC_LINK_STRIDE 2
 
-typedef struct {
-    int64_t pair; /* low node << 32 | high node; -1: free */
-    float length;
-} rc_link;
-
-typedef struct {
-    rc_link *link;
-    int64_t used, room; /* room: a power of two */
-} rc_links;
-
-typedef struct {
-    float length;
-    int32_t node;
-} rc_arc;
-
-static int64_t slot_of(const rc_links *t, int64_t pair)
-{
-    uint64_t h = (uint64_t)pair * UINT64_C(0x9E3779B97F4A7C15);
-    int64_t i = (int64_t)((h ^ (h >> 29)) & (uint64_t)(t->room - 1));
-    while (t->link[i].pair >= 0 && t->link[i].pair != pair) {
-        i = (i + 1) & (t->room - 1);
-    }
-    return i;
-}
-
-static int links_grow(rc_links *t)
-{
-    rc_links larger = {NULL, t->used, t->room ? 2 * t->room : 1024};
-    larger.link = malloc((size_t)larger.room * sizeof *larger.link);
-    if (!larger.link) {
-        return 0;
-    }
-    for (int64_t i = 0; i < larger.room; i++) {
-        larger.link[i].pair = -1;
-    }
-    for (int64_t i = 0; i < t->room; i++) {
-        if (t->link[i].pair >= 0) {
-            larger.link[slot_of(&larger, t->link[i].pair)] = t->link[i];
-        }
-    }
-    free(t->link);
-    *t = larger;
-    return 1;
-}
-
-static int links_add(rc_links *t, int32_t a, int32_t b, float length)
-{
-    if (2 * (t->used + 1) > t->room && !links_grow(t)) {
-        return 0;
-    }
-    const int64_t pair = a < b ? (int64_t)a << 32 | b : (int64_t)b << 32 | a;
-    const int64_t i = slot_of(t, pair);
-    if (t->link[i].pair < 0) {
-        t->link[i].pair = pair;
-        t->link[i].length = length;
-        t->used++;
-    } else if (length < t->link[i].length) {
-        t->link[i].length = length;
-    }
-    return 1;
-}
+static float raised(float bound) { return bound * RC_BOUND_SLACK + 1e-30f; }
 
 /* Where cells touch: the shortest path between their seeds that crosses there. */
 static int32_t find_links(const rc_steps *s, const rc_graph *g, const float *distance, const int32_t *owner,
@@ -82,7 +20,7 @@ static int32_t find_links(const rc_steps *s, const rc_graph *g, const float *dis
     static const int forward[4] = {6, 8, 9, 10};
     const lanes beta = lanes_all(s->beta);
     for (int32_t r = 1; r <= g->height; r++) {
-        if (control->cancel && *control->cancel) {
+        if (rc_cancelled(control)) {
             return RC_CANCELLED;
         }
         for (int32_t p = r * s->stride + 1; p <= r * s->stride + s->width; p++) {
@@ -107,7 +45,7 @@ static int32_t find_links(const rc_steps *s, const rc_graph *g, const float *dis
                     lanes_store(found + 8, rc_reach(s, p + s->stride - 1, here, y, d, beta, s->cost + 8));
                     have = 1;
                 }
-                if (!links_add(links, owner[p], owner[q], found[i] + distance[q])) {
+                if (!rc_links_add(links, owner[p], owner[q], found[i] + distance[q])) {
                     return RC_MEMORY;
                 }
             }
@@ -116,153 +54,89 @@ static int32_t find_links(const rc_steps *s, const rc_graph *g, const float *dis
     return RC_OK;
 }
 
-/* A binary heap of arcs by length. */
-static void heap_push(rc_arc *heap, int64_t *used, rc_arc a)
-{
-    int64_t i = (*used)++;
-    for (; i > 0 && a.length < heap[(i - 1) / 2].length; i = (i - 1) / 2) {
-        heap[i] = heap[(i - 1) / 2];
-    }
-    heap[i] = a;
-}
-
-static rc_arc heap_pop(rc_arc *heap, int64_t *used)
-{
-    const rc_arc first = heap[0], a = heap[--*used];
-    int64_t i = 0;
-    for (int64_t c; (c = 2 * i + 1) < *used; i = c) {
-        c += c + 1 < *used && heap[c + 1].length < heap[c].length;
-        if (!(heap[c].length < a.length)) {
-            break;
-        }
-        heap[i] = heap[c];
-    }
-    heap[i] = a;
-    return first;
-}
-
-/* For every node the length within which the search meets k seeds. `weight` says how many seeds a node stands for;
- * `first` and `arc` list each node's neighbors; `seen` holds -1 everywhere; `heap` has room for every arc and one. */
-static void search(int64_t nodes, int32_t k, const int64_t *first, const rc_arc *arc, const int32_t *weight,
-                   int32_t *seen, rc_arc *heap, float *reach)
-{
-    for (int32_t from = 0; from < nodes; from++) {
-        int64_t used = 0, met = 0;
-        reach[from] = INFINITY;
-        if (!weight[from]) {
-            continue;
-        }
-        heap_push(heap, &used, (rc_arc){0.0f, from});
-        while (used) {
-            const rc_arc at = heap_pop(heap, &used);
-            if (seen[at.node] == from) {
-                continue;
-            }
-            seen[at.node] = from;
-            met += weight[at.node];
-            if (met >= k) {
-                reach[from] = at.length;
-                break;
-            }
-            for (int64_t i = first[at.node]; i < first[at.node + 1]; i++) {
-                if (seen[arc[i].node] != from) {
-                    heap_push(heap, &used, (rc_arc){at.length + arc[i].length, arc[i].node});
-                }
-            }
-        }
-    }
-}
-
-/* The search of all nodes over links; `reach` has room for `nodes`. */
-static int32_t search_links(int64_t nodes, int32_t k, const rc_links *links, const int32_t *weight, float *reach)
-{
-    int64_t *first = calloc((size_t)nodes + 2, sizeof *first);
-    rc_arc *arc = malloc((size_t)(2 * links->used + 1) * sizeof *arc);
-    rc_arc *heap = malloc((size_t)(2 * links->used + 1) * sizeof *heap);
-    int32_t *seen = malloc((size_t)nodes * sizeof *seen);
-    const int32_t code = first && arc && heap && seen ? RC_OK : RC_MEMORY;
-    if (code == RC_OK) {
-        for (int64_t i = 0; i < nodes; i++) {
-            seen[i] = -1;
-        }
-        for (int64_t i = 0; i < links->room; i++) {
-            if (links->link[i].pair >= 0) {
-                first[(links->link[i].pair >> 32) + 2]++;
-                first[(links->link[i].pair & INT32_MAX) + 2]++;
-            }
-        }
-        for (int64_t i = 2; i < nodes + 2; i++) {
-            first[i] += first[i - 1];
-        }
-        for (int64_t i = 0; i < links->room; i++) {
-            if (links->link[i].pair >= 0) {
-                const int32_t a = (int32_t)(links->link[i].pair >> 32), b = (int32_t)(links->link[i].pair & INT32_MAX);
-                arc[first[a + 1]++] = (rc_arc){links->link[i].length, b};
-                arc[first[b + 1]++] = (rc_arc){links->link[i].length, a};
-            }
-        }
-        search(nodes, k, first, arc, weight, seen, heap, reach);
-    }
-    free(first);
-    free(arc);
-    free(heap);
-    free(seen);
-    return code;
-}
-
-static int32_t march(const rc_steps *steps, rc_queue *queue, float *plane, uint8_t *flags, int32_t *owner,
-                     const rc_control *control)
+int32_t rc_bounds_from_cells(rc_net *net, const rc_steps *steps, const rc_graph *graph, rc_queue *queue, int64_t count,
+                             const int64_t *pixels, int32_t k, float *bound, uint8_t *flags, int32_t *owner,
+                             const rc_control *control)
 {
     const rc_control quiet = {control->cancel, NULL};
-    return steps->wrap ? rc_march(steps, queue, plane, flags, NULL, owner, 1, &quiet)
-                       : rc_march(steps, queue, plane, flags, NULL, owner, 0, &quiet);
-}
-
-int32_t rc_bounds(const rc_steps *steps, const rc_graph *graph, rc_queue *queue, int64_t count, const int64_t *pixels,
-                  int32_t k, float *bound, uint8_t *flags, int32_t *owner, const rc_control *control)
-{
     const int64_t size = rc_plane_size(graph->height, graph->width);
-    rc_links links = {NULL, 0, 0};
-    int32_t *weight = calloc((size_t)count, sizeof *weight); /* seeds per node: a node is the first seed of a pixel */
-    float *reach = malloc((size_t)count * sizeof *reach);
-    int32_t code = weight && reach ? RC_OK : RC_MEMORY;
-    for (int64_t i = 0; i < size; i++) {
-        bound[i] = INFINITY;
+    net->count = count;
+    net->node = malloc((size_t)count * sizeof *net->node);
+    net->weight = calloc((size_t)count, sizeof *net->weight);
+    net->reach = malloc((size_t)count * sizeof *net->reach);
+    if (!net->node || !net->weight || !net->reach) {
+        return RC_MEMORY;
     }
-    for (int64_t j = 0; code == RC_OK && j < count; j++) {
+    if (!rc_fill(bound, size, INFINITY, control)) {
+        return RC_CANCELLED;
+    }
+    for (int64_t j = 0; j < count; j++) {
         const int32_t p = rc_plane_position(graph, pixels[j]);
         if (bound[p] > 0.0f) {
             owner[p] = (int32_t)j;
             rc_start(steps, queue, bound, flags, p, 0.0f);
         }
-        weight[owner[p]]++;
+        net->node[j] = owner[p];
+        net->weight[owner[p]]++;
+    }
+    int32_t code = steps->wrap ? rc_march(steps, queue, bound, flags, NULL, owner, 1, &quiet)
+                               : rc_march(steps, queue, bound, flags, NULL, owner, 0, &quiet);
+    if (code == RC_OK) {
+        code = find_links(steps, graph, bound, owner, &net->links, control);
     }
     if (code == RC_OK) {
-        code = march(steps, queue, bound, flags, owner, control);
+        code = rc_links_search(count, k, &net->links, net->weight, net->reach, control);
     }
-    if (code == RC_OK) {
-        code = find_links(steps, graph, bound, owner, &links, control);
-    }
-    if (code == RC_OK) {
-        code = search_links(count, k, &links, weight, reach);
-    }
-    for (int64_t i = 0; code == RC_OK && i < size; i++) {
-        bound[i] = INFINITY;
-    }
-    for (int64_t j = 0; code == RC_OK && j < count; j++) {
-        const int32_t p = rc_plane_position(graph, pixels[j]);
-        if (reach[j] < bound[p]) {
-            rc_start(steps, queue, bound, flags, p, reach[j]);
+    for (int32_t r = 1; code == RC_OK && r <= graph->height; r++) {
+        for (int32_t p = r * steps->stride + 1; p <= r * steps->stride + steps->width; p++) {
+            if (bound[p] < INFINITY) {
+                rc_set(steps, bound, p, raised(bound[p] + net->reach[owner[p]]));
+            }
         }
     }
-    if (code == RC_OK) {
-        code = march(steps, queue, bound, flags, NULL, control);
-    }
-    for (int64_t i = 0; code == RC_OK && i < size; i++) {
-        bound[i] = bound[i] * RC_BOUND_SLACK + 1e-30f;
-    }
-    free(links.link);
-    free(weight);
-    free(reach);
     return code;
+}
+
+int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph *graph, int32_t few, void *labels,
+                             int32_t k, float *bound, const rc_control *control)
+{
+    for (int32_t r = 1; r <= graph->height; r += RC_LINK_STRIDE) {
+        if (rc_cancelled(control)) {
+            return RC_CANCELLED;
+        }
+        for (int32_t c = 1; c <= graph->width; c += RC_LINK_STRIDE) {
+            const float *const d = rc_distances(labels, few, r * steps->stride + c);
+            const int32_t *const id = rc_seeds(labels, few, r * steps->stride + c);
+            for (int32_t i = 1; i < few && id[i] >= 0; i++) {
+                for (int32_t j = 0; j < i; j++) {
+                    const int32_t a = net->node[id[i]], b = net->node[id[j]];
+                    if (a != b && !rc_links_add(&net->links, a, b, d[i] + d[j])) {
+                        return RC_MEMORY;
+                    }
+                }
+            }
+        }
+    }
+    const int32_t code = rc_links_search(net->count, k, &net->links, net->weight, net->reach, control);
+    for (int32_t r = 1; code == RC_OK && r <= graph->height; r++) {
+        for (int32_t p = r * steps->stride + 1; p <= r * steps->stride + steps->width; p++) {
+            const float *const d = rc_distances(labels, few, p);
+            const int32_t *const id = rc_seeds(labels, few, p);
+            float least = INFINITY;
+            for (int32_t i = 0; i < few && id[i] >= 0; i++) {
+                const float u = d[i] + net->reach[net->node[id[i]]];
+                least = u < least ? u : least;
+            }
+            rc_set(steps, bound, p, raised(least));
+        }
+    }
+    return code;
+}
+
+void rc_net_free(rc_net *net)
+{
+    free(net->links.link);
+    free(net->node);
+    free(net->weight);
+    free(net->reach);
 }

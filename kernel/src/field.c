@@ -33,19 +33,19 @@ int32_t rc_field(const rc_graph *graph, int64_t count, const int64_t *pixels, co
     }
     rc_steps steps;
     rc_steps_init(&steps, graph);
-    for (int64_t i = 0; i < size; i++) {
-        plane[i] = INFINITY;
-    }
-    for (int64_t i = 0; i < count; i++) {
+    control = control ? control : &none;
+    code = rc_fill(plane, size, INFINITY, control) ? RC_OK : RC_CANCELLED;
+    for (int64_t i = 0; code == RC_OK && i < count; i++) {
         const int32_t p = rc_plane_position(graph, pixels[i]);
         const float at = start ? start[i] + 0.0f : 0.0f; /* -0 would not sort by its bits */
         if (at < plane[p]) {
             rc_start(&steps, queue, plane, flags, p, at);
         }
     }
-    control = control ? control : &none;
-    code = graph->wrap ? rc_march(&steps, queue, plane, flags, NULL, NULL, 1, control)
-                       : rc_march(&steps, queue, plane, flags, NULL, NULL, 0, control);
+    if (code == RC_OK) {
+        code = graph->wrap ? rc_march(&steps, queue, plane, flags, NULL, NULL, 1, control)
+                           : rc_march(&steps, queue, plane, flags, NULL, NULL, 0, control);
+    }
     rc_queue_free(queue);
     free(flags);
     return code;

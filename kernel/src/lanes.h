@@ -54,8 +54,8 @@ typedef struct {
     float v[4];
 } lanes;
 #define RC_EACH_LANE for (int i = 0; i < 4; i++)
-static inline lanes lanes_load(const float *p) { return (lanes){{p[0], p[1], p[2], p[3]}}; }
-static inline void lanes_store(float *p, lanes a) { RC_EACH_LANE p[i] = a.v[i]; }
+static inline lanes lanes_load(const float *p) { lanes a; memcpy(&a, p, sizeof a); return a; }
+static inline void lanes_store(float *p, lanes a) { memcpy(p, &a, sizeof a); }
 static inline lanes lanes_all(float a) { return (lanes){{a, a, a, a}}; }
 static inline lanes lanes_add(lanes a, lanes b) { RC_EACH_LANE a.v[i] += b.v[i]; return a; }
 static inline lanes lanes_sub(lanes a, lanes b) { RC_EACH_LANE a.v[i] -= b.v[i]; return a; }

@@ -2,12 +2,10 @@
 #ifndef RC_MARCH_H
 #define RC_MARCH_H
 
+#include "control.h"
 #include "lanes.h"
 #include "queue.h"
 #include "reflcolor_kernel.h"
-
-/* Pixels between two looks at the cancel flag: some tens of microseconds. */
-#define RC_POLL 4096
 
 typedef struct {
     const float *y, *d;
@@ -84,13 +82,6 @@ static inline int rc_trail_grow(rc_trail *t)
     t->pixel = pixel;
     t->room = room;
     return 1;
-}
-
-static inline void rc_progress(const rc_control *control, int64_t by)
-{
-    if (control->progress) {
-        __atomic_fetch_add(control->progress, by, __ATOMIC_RELAXED);
-    }
 }
 
 /* A pixel the propagation starts from. */
@@ -179,7 +170,7 @@ static inline int32_t rc_march(const rc_steps *s, rc_queue *queue, float *curren
             if (until_poll <= 0) {
                 until_poll += RC_POLL;
                 rc_progress(control, RC_POLL);
-                if (control->cancel && *control->cancel) {
+                if (rc_cancelled(control)) {
                     return RC_CANCELLED;
                 }
             }

@@ -16,6 +16,10 @@
  * propagation lives in. */
 #define RC_AHEAD 16
 
+/* For so many nearest seeds it pays to find a few first: they tell the distances between seeds, and those the bounds. */
+#define RC_MANY 16
+#define RC_FEW 4
+
 /* Insert (d, j) into a list of k ascending places, behind its equals; the last place is lost. Nothing branches: where
  * to insert cannot be foreseen. */
 static inline void insert(float *list, int32_t *ids, int32_t k, float d, int32_t j)
@@ -42,10 +46,13 @@ static inline void insert(float *list, int32_t *ids, int32_t k, float d, int32_t
 }
 
 /* Insert seed j into the lists of all pixels it settled, and make `current` each list's last distance again. */
-static void insert_trail(const rc_steps *steps, const rc_trail *trail, uint8_t *flags, int32_t k, int32_t j,
-                         void *labels, float *current)
+static int32_t insert_trail(const rc_steps *steps, const rc_trail *trail, uint8_t *flags, int32_t k, int32_t j,
+                            void *labels, float *current, const rc_control *control)
 {
     for (int64_t n = 0; n < trail->used; n++) {
+        if (n % RC_POLL == 0 && rc_cancelled(control)) {
+            return RC_CANCELLED;
+        }
         if (n + RC_AHEAD < trail->used) {
             const float *const ahead = rc_distances(labels, k, trail->pixel[n + RC_AHEAD]);
             for (int32_t i = 0; i < 2 * k; i += 16) {
@@ -58,10 +65,11 @@ static void insert_trail(const rc_steps *steps, const rc_trail *trail, uint8_t *
         rc_set(steps, current, p, list[k - 1]);
         flags[p] = 0;
     }
+    return RC_OK;
 }
 
 /* Start all lists: k places that hold the pixel's bound and no seed. */
-static void clear_lists(int64_t size, int32_t k, const float *current, void *labels)
+static int32_t clear_lists(int64_t size, int32_t k, const float *current, void *labels, const rc_control *control)
 {
     for (int64_t p = 0; p < size; p++) {
         float *const list = rc_distances(labels, k, p);
@@ -70,14 +78,21 @@ static void clear_lists(int64_t size, int32_t k, const float *current, void *lab
             list[i] = current[p];
             ids[i] = -1;
         }
+        if (p % RC_POLL == 0 && rc_cancelled(control)) {
+            return RC_CANCELLED;
+        }
     }
+    return RC_OK;
 }
 
 /* Whether every list that a finite bound promised to fill is full. */
-static int lists_full(int64_t size, int32_t k, void *labels)
+static int lists_full(int64_t size, int32_t k, void *labels, const rc_control *control)
 {
     for (int64_t p = 0; p < size; p++) {
         if (rc_seeds(labels, k, p)[k - 1] < 0 && rc_distances(labels, k, p)[k - 1] < INFINITY) {
+            return 0;
+        }
+        if (p % RC_POLL == 0 && rc_cancelled(control)) {
             return 0;
         }
     }
@@ -91,18 +106,23 @@ static int32_t march_seeds(const rc_steps *steps, const rc_graph *graph, rc_queu
     const rc_control quiet = {control->cancel, NULL};
     for (int64_t j = 0; j < count; j++) {
         const int32_t p = rc_plane_position(graph, pixels[j]);
+        if (rc_cancelled(control)) {
+            return RC_CANCELLED;
+        }
+        rc_progress(control, 1);
         if (!(0.0f < current[p])) {
             continue;
         }
         trail->used = 0;
         rc_start(steps, queue, current, flags, p, 0.0f);
-        const int32_t code = steps->wrap ? rc_march(steps, queue, current, flags, trail, NULL, 1, &quiet)
-                                         : rc_march(steps, queue, current, flags, trail, NULL, 0, &quiet);
+        int32_t code = steps->wrap ? rc_march(steps, queue, current, flags, trail, NULL, 1, &quiet)
+                                   : rc_march(steps, queue, current, flags, trail, NULL, 0, &quiet);
+        if (code == RC_OK) {
+            code = insert_trail(steps, trail, flags, k, (int32_t)j, labels, current, control);
+        }
         if (code != RC_OK) {
             return code;
         }
-        insert_trail(steps, trail, flags, k, (int32_t)j, labels, current);
-        rc_progress(control, 1);
     }
     return RC_OK;
 }
@@ -129,27 +149,42 @@ int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, 
     rc_steps steps;
     rc_steps_init(&steps, graph);
     rc_trail trail = {NULL, 0, 0};
+    rc_net net = {0, {NULL, 0, 0}, NULL, NULL, NULL};
     rc_queue *queue = rc_queue_new();
     float *current = malloc((size_t)size * sizeof *current);
     uint8_t *flags = calloc((size_t)size, 1);
     code = queue && current && flags ? RC_OK : RC_MEMORY;
+    const int32_t few = k >= RC_MANY ? RC_FEW : k;
     if (code == RC_OK) {
         /* The lists' own memory serves as scratch before they are begun. */
-        code = rc_bounds(&steps, graph, queue, count, pixels, k, current, flags, labels, control);
+        code = rc_bounds_from_cells(&net, &steps, graph, queue, count, pixels, few, current, flags, labels, control);
+    }
+    if (code == RC_OK && few < k) {
+        const rc_control quiet = {control->cancel, NULL};
+        code = clear_lists(size, few, current, labels, control);
+        if (code == RC_OK) {
+            code = march_seeds(&steps, graph, queue, &trail, count, pixels, few, current, flags, labels, &quiet);
+        }
+        if (code == RC_OK) {
+            code = rc_bounds_from_lists(&net, &steps, graph, few, labels, k, current, control);
+        }
     }
     for (int bounded = 1; code == RC_OK; bounded = 0) {
-        if (!bounded) {
-            for (int64_t i = 0; i < size; i++) {
-                current[i] = INFINITY;
-            }
-        }
-        clear_lists(size, k, current, labels);
-        code = march_seeds(&steps, graph, queue, &trail, count, pixels, k, current, flags, labels, control);
-        /* Rounding could in principle make a bound too low; then a list stays short, and all is done without. */
-        if (code != RC_OK || !bounded || lists_full(size, k, labels)) {
+        if (!bounded && !rc_fill(current, size, INFINITY, control)) {
+            code = RC_CANCELLED;
             break;
         }
+        code = clear_lists(size, k, current, labels, control);
+        if (code == RC_OK) {
+            code = march_seeds(&steps, graph, queue, &trail, count, pixels, k, current, flags, labels, control);
+        }
+        /* Rounding could in principle make a bound too low; then a list stays short, and all is done without. */
+        if (!bounded || lists_full(size, k, labels, control)) {
+            break;
+        }
+        code = code == RC_OK && rc_cancelled(control) ? RC_CANCELLED : code;
     }
+    rc_net_free(&net);
     free(trail.pixel);
     free(current);
     free(flags);

@@ -69,7 +69,7 @@ static inline double rc_exp(double x)
 
 static inline float rc_power_one(float alpha, float x)
 {
-    if (alpha == 0.0f || x == 1.0f) {
+    if (x == 1.0f) {
         return 1.0f;
     }
     if (x < 1e-37f) {
@@ -83,7 +83,11 @@ static inline float rc_power_one(float alpha, float x)
  * may have told its processor to flush, ever enters a sum. */
 static inline void rc_power_apply(rc_power p, float *x, int32_t n)
 {
-    if (p.whole == 6) {
+    if (p.whole == 0) {
+        for (int32_t i = 0; i < n; i++) {
+            x[i] = x[i] > 0.0f ? 1.0f : 0.0f; /* a seed at distance 0 has the pixel for itself even here */
+        }
+    } else if (p.whole == 6) {
         for (int32_t i = 0; i < n; i++) {
             const float square = x[i] * x[i];
             x[i] = square * square * square;

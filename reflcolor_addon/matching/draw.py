@@ -1,4 +1,4 @@
-"""Matches drawn side by side, as in the paper's figures 7a and 10a: the scan left, the photos right, a line per seed."""
+"""Matches drawn side by side, as in the paper's figures 7a and 10a: scan left, photos right, a line per seed."""
 
 import numpy as np
 

@@ -2,8 +2,8 @@
 
 Infrared reflectance is not the gray of a photo: a red letter on white may vanish, a dark leaf shines. What both have is
 where the edges run. A gradient's angle is doubled, so that a change of sign changes nothing, and its harmonics make a
-smooth histogram of orientations at every pixel (a HOG with neither cells nor bins); then each neighborhood is brought to
-the same contrast.
+smooth histogram of orientations at every pixel (a HOG with neither cells nor bins); then each neighborhood is brought
+to the same contrast.
 """
 
 import numpy as np

@@ -1,8 +1,8 @@
 """Seeds where no photo could be verified: by appearance and in spatial agreement, else the photo's mean color.
 
 A single most similar superpixel is wrong more often than not, and a scan colored so looks worse than one in the photo's
-mean color. But where neighbors in the scan find neighbors in the photo, in the same arrangement, that is no chance. So a
-seed moves from the mean color towards its match only as far as its neighbors agree with it.
+mean color. But where neighbors in the scan find neighbors in the photo, in the same arrangement, that is no chance.
+So a seed moves from the mean color towards its match only as far as its neighbors agree with it.
 """
 
 import numpy as np

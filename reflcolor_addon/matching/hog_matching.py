@@ -1,4 +1,4 @@
-"""Method 2 as published: superpixels of both images, HOG of the Canny edges around each, the nearest descriptor wins."""
+"""Method 2 as published: superpixels of both images, HOG of the Canny edges around each, the nearest wins."""
 
 from dataclasses import dataclass
 
@@ -55,7 +55,7 @@ def described_scan(scan, image, settings):
 
 
 def described_photo(rgb, longest, settings):
-    """Return the `Described` superpixels of a photo (H, W, 3), at ``longest`` pixels a side: as many as the scan has."""
+    """Return the `Described` superpixels of a photo (H, W, 3), at ``longest`` pixels a side, as the scan has."""
     import cv2
 
     small = sized(rgb, longest)

@@ -90,7 +90,7 @@ def visible(model, image, xy, depth, tolerance=0.04):
     inside &= (xy >= 0).all(axis=-1) & (np.nan_to_num(xy) <= [model.width, model.height]).all(axis=-1)
     if model.kind == "homography" or not inside.any():
         return inside
-    cell = max(2.0 * spacing(xy, inside), max(model.width, model.height) / 2000)
+    cell = max(1.3 * spacing(xy, inside), max(model.width, model.height) / 2000)
     columns, rows = int(model.width / cell) + 2, int(model.height / cell) + 2
     place = (xy[inside] / cell).astype(int)
     nearest = np.full((rows, columns), np.inf)
@@ -104,7 +104,7 @@ def visible(model, image, xy, depth, tolerance=0.04):
 
 
 def spacing(xy, seen):
-    """Return the median distance in the photo between horizontal neighbors of the scan, in pixels; 1 if there are none."""
+    """Return the median distance in the photo between horizontal neighbors of the scan, in pixels."""
     # Over several pixels: where the scan's columns are coarse, neighbors show the same point.
     reach = min(8, seen.shape[1] - 1)
     both = seen[:, reach:] & seen[:, : seen.shape[1] - reach]

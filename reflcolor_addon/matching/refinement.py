@@ -1,8 +1,8 @@
 """Fitting a model to a photo by tiles of the scan, each sought in the photo near where the model puts it.
 
 A tile alone is often wrong, so no tile decides where it is: it gives a surface of scores over all shifts, and the model
-whose shifts collect the highest sum wins. That is robust where nine of ten tiles have several peaks, and cheap: once the
-surfaces are there, a candidate costs a look-up per tile.
+whose shifts collect the highest sum wins. That is robust where nine of ten tiles have several peaks, and cheap: once
+the surfaces are there, a candidate costs a look-up per tile.
 """
 
 from dataclasses import dataclass
@@ -219,10 +219,11 @@ def _local_maps(scan_image, model, sites, middles, at):
         steps *= scan_image.range[middles[:, 0], middles[:, 1]][:, None, None]
     places, _ = model.project(at)
     jacobian = np.stack([model.project(at + steps[:, axis])[0] - places for axis in (0, 1)], axis=-1)
-    determinant = np.abs(np.linalg.det(np.nan_to_num(jacobian)))
-    usable = (determinant > 1e-9) & np.isfinite(jacobian).all(axis=(1, 2))
-    inverse = np.full(jacobian.shape, np.nan)
-    inverse[usable] = np.linalg.inv(jacobian[usable])
+    (a, b), (c, d) = np.moveaxis(jacobian, 0, -1)
+    determinant = a * d - b * c
+    usable = np.isfinite(jacobian).all(axis=(1, 2)) & (np.abs(determinant) > 1e-9)
+    inverse = np.stack([np.stack([d, -b], -1), np.stack([-c, a], -1)], axis=1)
+    inverse = inverse / np.where(usable, determinant, np.nan)[:, None, None]
     return places, inverse
 
 

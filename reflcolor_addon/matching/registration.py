@@ -17,6 +17,8 @@ _CONVINCING = 3.0
 _GUESSES = 14
 _TRIED = 5
 _PENALTY = 0.004
+_LEAST_CONTRAST = 8
+_LEAST_PIXELS = 400
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +42,12 @@ class ScanViews:
         self.scan = scan
         self.step_deg = map_step(scan)
         self._made = {}
+
+    @property
+    def enough(self):
+        """Whether there is anything to match: enough returns, and not all in one place."""
+        points = self.scan.points[self.scan.valid]
+        return len(points) >= _LEAST_PIXELS and bool(np.ptp(points, axis=0).max() > 0)
 
     def tone(self, tone):
         """The toned reflectance, see `scan_image.toned`."""
@@ -81,6 +89,8 @@ def register(views, photo, *, step=lambda text: None):
         The best there is, accepted or not.
     """
     best = Registration(None, NO_EVIDENCE, "nothing")
+    if np.ptp(photo.levels[0][0]) < _LEAST_CONTRAST or not views.enough:
+        return best
     for attempt, tone in _ATTEMPTS:
         found = attempt(views, photo, tone, step)
         if found.evidence.rank > best.evidence.rank:

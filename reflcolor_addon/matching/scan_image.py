@@ -9,6 +9,7 @@ from .edges import scan_features
 
 TONES = ("ranks", "percentiles")
 RANGE_WEIGHT = 0.35
+_SMALL = 400
 
 
 def toned(scan, tone):
@@ -51,7 +52,8 @@ class ScanImage:
     tone_image : (H, W) float32
         The reflectance, see `toned`.
     step_deg : float
-        Size of a pixel; never finer than the grid.
+        Size of a pixel; never finer than the grid, or than half of it where the grid is small: there a tile would
+        else be a large part of the scan, and a few tiles prove little.
     range_weight : float
         See `edges.scan_features`.
 
@@ -72,7 +74,10 @@ class ScanImage:
     def __init__(self, scan, tone_image, step_deg, range_weight=RANGE_WEIGHT):
         height, width = scan.shape
         vertical, horizontal = pixel_steps(scan)
-        self.step_deg = max(step_deg, min(vertical, horizontal))
+        finest = min(vertical, horizontal)
+        if max(height * vertical, width * horizontal) / finest < _SMALL:
+            finest /= 2
+        self.step_deg = max(step_deg, finest)
         h = max(1, round(height * vertical / self.step_deg))
         w = max(1, round(width * horizontal / self.step_deg))
         self.shape = (h, w)
@@ -101,7 +106,7 @@ class ScanImage:
 
     @cached_property
     def normals(self):
-        """(h, w, 3) float64: normals of the surface in the scan's grid, of any sign; zero where a neighbor is missing."""
+        """(h, w, 3) float64: normals of the surface, of any sign; zero where a neighbor is missing."""
         points, valid = self._scan.points, self._scan.valid
         right, down = np.zeros((2, *points.shape))
         right[:, 1:-1] = (points[:, 2:] - points[:, :-2]) * (valid[:, 2:] & valid[:, :-2])[..., None]

@@ -1,7 +1,7 @@
 """Where a photo may have been taken from: every direction at once, for a list of focal lengths and places.
 
-Seen from one place, the scan is a map over azimuth and elevation, and so is a photo of a known focal length; turning the
-photo left and right shifts its map. So one correlation by FFT tries every direction, on edge features (see `edges`),
+Seen from one place, the scan is a map over azimuth and elevation, and so is a photo of a known focal length; turning
+the photo left and right shifts its map. So one correlation by FFT tries every direction, on edge features (see `edges`),
 normalized by what overlaps.
 """
 
@@ -204,7 +204,7 @@ def _drawn(rows, cols, shape, distance, tone):
 
 
 def _photo_map(photo, focal, pitch_deg, roll_deg, step_deg):
-    """Features of the photo over azimuth and elevation, where it is seen, azimuth of its left and elevation of its top."""
+    """Features of the photo over azimuth and elevation, where it is seen, its left azimuth and its top elevation."""
     width, height = photo.width, photo.height
     focal_px = focal * max(width, height)
     rotation = camera_axes(0.0, pitch_deg, roll_deg)

@@ -204,7 +204,7 @@ def _seen_seeds(place, photos, photo_gains):
 
 
 def _trust(registration):
-    """How sure a registration is: 0.75 where it is just accepted or rests on pairs alone, 1 where it is beyond doubt."""
+    """How sure a registration is: 0.75 if just accepted or resting on pairs alone, 1 if beyond doubt."""
     if registration.model is None or not registration.accepted:
         return 0.75
     return float(np.clip(0.75 + 0.25 * (registration.evidence.rank - 1) / 4, 0.75, 1.0))
@@ -235,6 +235,11 @@ def _with_unseen(place, seen, look, appearance, photos, settings):
     sure = confidence >= LEAST_CONFIDENCE
     if seen is None and not sure.any():
         return _cautious(place, photos, settings)
+    if seen is not None:
+        lost = _cut_off(place, np.concatenate([seen.segments, unseen[sure]]), unseen)
+        rgb[lost & ~sure] = np.rint(seen.seeds.rgb.mean(axis=0))
+        confidence = np.where(lost & ~sure, LEAST_CONFIDENCE / 2, confidence)
+        sure |= lost
     rows, cols = place.superpixels.centers[unseen[sure]].T
     likely = Seeds(
         rows=place.image.rows[rows],
@@ -256,10 +261,19 @@ def _with_unseen(place, seen, look, appearance, photos, settings):
     )
 
 
+def _cut_off(place, seeded, unseen):
+    """Which of the unseen superpixels lie in a part of the scan that no seed reaches: they would stay gray."""
+    import cv2
+
+    _, part = cv2.connectedComponents(place.image.valid.astype(np.uint8), connectivity=8)
+    of_segment = part[tuple(place.superpixels.centers.T)]
+    return ~np.isin(of_segment[unseen], of_segment[seeded])
+
+
 def _cautious(place, photos, settings):
     """Seeds where nothing was verified: the mean color of the photos, and more only where neighbors agree."""
     place.warnings.append(
-        f"{place.scan.name}: no photo could be verified; the colors are guessed from likeness, near the photos' mean color"
+        f"{place.scan.name}: no photo could be verified; colors are guessed from likeness, near the photos' mean color"
     )
     own = described_scan(place.scan, place.image, settings)
     others = [described_photo(photo.rgb, max(place.image.shape), settings) for photo in photos]

@@ -7,7 +7,7 @@ import numpy as np
 from .edges import filled
 
 LONGEST_SIDE = 1200
-"""Images are brought to at most so many pixels a side: SLIC's time goes with them, and a segment has hundreds anyway."""
+"""Images are brought to at most so many pixels a side: SLIC's time goes with them, and they suffice."""
 
 
 @dataclass(frozen=True, eq=False)

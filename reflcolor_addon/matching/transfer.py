@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .photo_image import spacing, visible
+from .unknown_space import hidden_by_unknown
 
 _JUMP = 0.04
 _MARGIN = 2
@@ -54,6 +55,8 @@ def seen_by(photo, model, image):
     cosine = _cosine(model, image)
     solid = _opened(seen & ~jumps(image), image.valid)
     usable = solid & inside & (np.abs(cosine) > _GRAZING)
+    if model.kind == "pose":
+        usable &= ~hidden_by_unknown(image, model.center, usable)
     behind = usable & (cosine < 0)
     detail = spacing(xy, seen)
     rgb = _sampled_rgb(photo, xy, usable, detail)

@@ -1,0 +1,128 @@
+"""The paper's three experiments made anew: python -m benchmarks.experiments FOLDER
+
+Simulates the scenes that are not in FOLDER yet, colorizes them from seeds, and writes the pictures of
+docs/experiments.md to FOLDER as JPEG; prints the tables of that page. Needs the zip of `make build`, and about ten
+minutes.
+"""
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from benchmarks.experiments import cases, meshes, pictures, tables
+from reflcolor_addon import Seeds, Settings, colorize
+from reflcolor_addon.image_files import read_image
+from reflcolor_addon.settings import PRESETS
+
+
+def picked_by_hand(group):
+    """Method 1."""
+    return [Seeds.load(case.seeds, case.photos) for case in group]
+
+
+# Each gives the seeds of all scans that are colorized from the same photos.
+METHODS = {"Method 1": picked_by_hand}
+SETTINGS = {"Yatziv": Settings(beta=0)} | {name: Settings.preset(name) for name in PRESETS}
+WIDTH = 1200
+# Where the whole house is looked at from: place, target, field of view.
+HOUSE_VIEWS = (((-13.5, -15.5, 8.5), (0.2, 0.3, 2.1), 36.0), ((14.5, 14.5, 8.5), (-0.2, 0.0, 2.1), 36.0))
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.experiments", description=__doc__.partition("\n")[0])
+    parser.add_argument("folder", metavar="FOLDER", type=Path)
+    folder = parser.parse_args().folder
+    folder.mkdir(parents=True, exist_ok=True)
+    found = cases.load(folder)
+    groups = {}
+    for case in found:
+        groups.setdefault((case.scene, case.variant), []).append(case)
+    results = {}
+    for method, seeds_of in METHODS.items():
+        for key, group in groups.items():
+            seeds = seeds_of(group)
+            results[method, key] = [
+                colorize(case.scan, own, SETTINGS["Paper"]) for case, own in zip(group, seeds, strict=True)
+            ]
+    print_tables(groups, results)
+    renderer = meshes.Renderer(folder)
+    draw_flat(folder, groups, results)
+    draw_meshes(folder, groups, results, renderer)
+    sys.stdout.flush()
+    renderer.end(0)
+
+
+def print_tables(groups, results):
+    """All figures of docs/experiments.md."""
+    for method in METHODS:
+        rows = [
+            tables.method_row(case, result)
+            for key, group in groups.items()
+            for case, result in zip(group, results[method, key], strict=True)
+        ]
+        print(f"\n{method}, CIEDE2000 of color alone\n\n{tables.table(tables.METHOD_TITLES, rows)}", flush=True)
+    hand = [
+        (case, own)
+        for key, group in groups.items()
+        if key[1] != cases.HOUSE_PHOTOS["one_photo"]
+        for case, own in zip(group, picked_by_hand(group), strict=True)
+    ]
+    true = [(case, replace(own, rgb=case.truth[own.rows, own.cols])) for case, own in hand]
+    for colors, seeded in (("of the photos", hand), ("that are true", true)):
+        rows = [tables.range_row(case, own, SETTINGS["Yatziv"], SETTINGS["Paper"]) for case, own in seeded]
+        print(f"\nbeta 0 → beta 1, seeds by hand with colors {colors}\n\n{tables.table(tables.RANGE_TITLES, rows)}")
+        rows = [tables.settings_row(case, own, SETTINGS.values()) for case, own in seeded]
+        print(
+            f"\nSettings, seeds by hand with colors {colors}\n\n{tables.table(['scan', *SETTINGS], rows)}", flush=True
+        )
+
+
+def draw_flat(folder, groups, results):
+    """Inputs, seeds and colorized images."""
+    for (scene, variant), group in groups.items():
+        name, kind = scene.replace(" ", ""), f"_{variant}".replace(" ", "_") if variant else ""
+        photos = [read_image(photo) for photo in group[0].photos]
+        scans = [[draw(case.scan) for case in group] for draw in (pictures.range_image, pictures.reflectance_image)]
+        if len(group) == 1:
+            save(folder, f"{name}_input", [[scans[0][0], scans[1][0], *photos]])
+        elif variant != cases.HOUSE_PHOTOS["one_photo"]:
+            save(folder, f"{name}_input", [*scans, photos])
+        for method in METHODS:
+            colored = results[method, (scene, variant)]
+            seeds = [pictures.seeds_image(case.scan, own.seeds) for case, own in zip(group, colored, strict=True)]
+            images, truths = [result.rgb for result in colored], [case.truth for case in group]
+            rows = [[seeds[0], images[0], truths[0]]] if len(group) == 1 else [seeds, images, truths]
+            save(folder, f"{name}{kind}_{slug(method)}", rows)
+        if len(group) == 1:
+            (case,), (own,) = group, picked_by_hand(group)
+            compared = [colorize(case.scan, own, SETTINGS[name]).rgb for name in ("Yatziv", "Paper")]
+            save(folder, f"{name}_range", [compared])
+
+
+def draw_meshes(folder, groups, results, renderer):
+    """The gray mesh beside those that every method colored; of scene 3 from two sides."""
+    scenes = {}
+    for (scene, _variant), group in groups.items():
+        scenes.setdefault(scene, [case.scan for case in group])
+    for scene, scans in scenes.items():
+        colors = [
+            [result.rgb for result in results[method, key]] for method in METHODS for key in groups if key[0] == scene
+        ]
+        rows = [
+            [renderer.picture(scans, view=view), *(renderer.picture(scans, rgb, view) for rgb in colors)]
+            for view in (HOUSE_VIEWS if len(scans) > 1 else (None,))
+        ]
+        save(folder, f"{scene.replace(' ', '')}_mesh", rows)
+
+
+def save(folder, name, rows):
+    pictures.write_jpeg(folder / f"{name}.jpg", pictures.sheet(rows, WIDTH))
+
+
+def slug(words):
+    return words.lower().replace(" ", "")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,227 @@
+"""How fast the geodesic engine is, beside others, in one run: python -m benchmarks.geodesic [--quick]
+
+Every figure is a median over runs that take turns, so that what else the machine does falls on all alike; times are of
+the processor, not of the clock, but for those of two threads. --quick leaves out Levin's optimization and what is
+larger than 4 megapixels.
+"""
+
+import argparse
+import json
+import platform
+import statistics
+import subprocess
+import sys
+import time
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks import geodesic_cases as cases
+from reflcolor_addon import kernel
+from reflcolor_addon.reference import reference_distances
+
+ALPHA = 6.0
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def medians(functions, rounds, clock=time.process_time):
+    """Seconds of each of the named functions: they take turns ``rounds`` times."""
+    seconds = {name: [] for name in functions}
+    for _ in range(rounds):
+        for name, function in functions.items():
+            start = clock()
+            function()
+            seconds[name].append(clock() - start)
+    return {name: statistics.median(values) for name, values in seconds.items()}
+
+
+def row(*cells):
+    print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
+
+
+def head(title, *cells):
+    print(f"\n{title}\n", flush=True)
+    row(*cells)
+    row(*["---"] * len(cells))
+
+
+def one_field(rounds):
+    """One field by the kernel, scipy and the reference, for 8 and 4 neighbors; K nearest of 1,000 seeds."""
+    from scipy.sparse.csgraph import dijkstra
+
+    head(
+        "One field and the nearest of 1,000 seeds, 760 x 1135, one thread (milliseconds; in brackets, in scipy fields)",
+        *("image", "valid", "neighbors", "heapq", "scipy", "kernel", "scipy / kernel", "heapq / kernel"),
+        *(f"K = {k}" for k in (8, 16, 32)),
+    )
+    for name in (*cases.SCANS, "tiled"):
+        images = cases.case(name)
+        pixels = cases.spread_seeds(images[2], 1000)
+        source = int(pixels[len(pixels) // 2])
+        for neighbors in (8, 4):
+            graph = kernel.Graph(*images, neighbors=neighbors)
+            same = cases.pixel_graph(images, neighbors)
+            same.matrix  # noqa: B018 - made before the clock runs
+            functions = {
+                "scipy": partial(dijkstra, same.matrix, indices=source),
+                "kernel": partial(kernel.field, graph, source),
+            }
+            functions |= {k: partial(kernel.nearest, graph, pixels, k) for k in (8, 16, 32)}
+            found = medians(functions, rounds)
+            place = divmod(source, images[2].shape[1])
+            slow = partial(reference_distances, *images, place, neighbors=neighbors)
+            found |= medians({"heapq": slow}, 1)
+            scipy, own = found["scipy"], found["kernel"]
+            row(
+                name,
+                f"{images[2].mean():.0%}",
+                neighbors,
+                *(f"{1e3 * found[key]:.0f}" for key in ("heapq", "scipy", "kernel")),
+                f"{scipy / own:.1f}",
+                f"{found['heapq'] / own:.0f}",
+                *(f"{1e3 * found[k]:.0f} ({found[k] / scipy:.1f})" for k in (8, 16, 32)),
+            )
+
+
+def threads(rounds):
+    """Exact mode by one and two threads."""
+    images = cases.case("doria")
+    pixels = cases.spread_seeds(images[2], 200)
+    graph, colors = kernel.Graph(*images), cases.seed_colors(pixels)
+    functions = {n: partial(kernel.blend_all, graph, pixels, colors, ALPHA, threads=n) for n in (1, 2)}
+    found = medians(functions, rounds, time.perf_counter)
+    head("Exact, 200 seeds, doria, 760 x 1135 (seconds by the clock)", "1 thread", "2 threads", "ratio")
+    row(f"{found[1]:.2f}", f"{found[2]:.2f}", f"{found[1] / found[2]:.2f}")
+
+
+def incremental(rounds):
+    """One seed more, and one seed recolored, where 50 are."""
+    from scipy.sparse.csgraph import dijkstra
+
+    head(
+        "One seed more where 50 are, 760 x 1135, one thread (milliseconds)",
+        *("image", "scipy field", "field + blend", "ratio", "new sum of 51 held fields"),
+    )
+    for name in cases.SCANS:
+        images = cases.case(name)
+        pixels = cases.spread_seeds(images[2], 51)
+        graph, colors = kernel.Graph(*images), cases.seed_colors(pixels)
+        fields = [kernel.field(graph, pixel) for pixel in pixels]
+        blend = kernel.Blend(graph.shape, ALPHA)
+        for field, color in zip(fields[:-1], colors[:-1], strict=True):
+            blend.add(field, color)
+
+        def add(graph=graph, blend=blend, pixels=pixels, colors=colors):
+            blend.add(kernel.field(graph, pixels[-1]), colors[-1])
+            return blend.mean()
+
+        def sum_anew(graph=graph, fields=fields, colors=colors):
+            fresh = kernel.Blend(graph.shape, ALPHA)
+            for field, color in zip(fields, colors, strict=True):
+                fresh.add(field, color)
+            return fresh.mean()
+
+        matrix = cases.pixel_graph(images).matrix
+        functions = {"scipy": partial(dijkstra, matrix, indices=int(pixels[-1])), "add": add, "sum": sum_anew}
+        found = medians(functions, rounds)
+        shown = (f"{1e3 * found[key]:.0f}" for key in ("scipy", "add"))
+        row(name, *shown, f"{found['add'] / found['scipy']:.2f}", f"{1e3 * found['sum']:.0f}")
+
+
+def apart(*arguments):
+    """Time and memory of a case of benchmarks/geodesic_memory.py."""
+    command = [sys.executable, "-m", "benchmarks.geodesic_memory", *map(str, arguments)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def memory():
+    """Peak memory per pixel; the graph and the results count, the images do not."""
+    head("Peak memory beyond the images, doria, 4 megapixels", "mode", "bytes per pixel", "bar")
+    for count in (1, 2):
+        found = apart("exact", "doria", 2000, 2000, 6, count)
+        row(f"exact, {count} thread(s)", f"{found['bytes'] / found['pixels']:.1f}", 40 * count)
+    for k in (8, 16, 32):
+        found = apart("nearest", "doria", 2000, 2000, 1000, k)
+        row(f"K = {k}", f"{found['bytes'] / found['pixels']:.1f}", 32 + 10 * k)
+
+
+def growth(quick, rounds):
+    """Time per pixel from 0.1 to 40 megapixels."""
+    head(
+        "Growth, the tiled image, K = 8, one thread (time per valid pixel; peak memory per pixel)",
+        *("megapixels", "seeds", "us per pixel", "bytes per pixel", "1,000 seeds: us per pixel", "bytes per pixel"),
+    )
+    for side in (316, 1000, 2000) if quick else (316, 1000, 2000, 3162, 6325):
+        cells = []
+        for seeds in (round(side * side * 0.52 / 450), 1000):
+            runs = [apart("nearest", "tiled", side, side, seeds, 8) for _ in range(1 if side > 2000 else rounds)]
+            seconds = statistics.median(run["seconds"] for run in runs)
+            cells.append((runs[0]["seeds"], 1e6 * seconds / runs[0]["valid"], runs[0]["bytes"] / runs[0]["pixels"]))
+        (seeds, *dense), (_, *fixed) = cells
+        shown = [f"{value:.2f}" if i % 2 == 0 else f"{value:.0f}" for i, value in enumerate((*dense, *fixed))]
+        row(f"{side * side / 1e6:.1f}", seeds, *shown)
+
+
+def levin():
+    """Levin's optimization against K = 8, the same 400 seeds."""
+    head("400 seeds, doria, 760 x 1135, from images to chrominance", "method", "seconds", "MB", "Levin's / K = 8")
+    ours, theirs = (apart(method, "doria", 760, 1135, 400, 8) for method in ("nearest", "levin"))
+    row("K = 8", f"{ours['seconds']:.2f}", f"{ours['bytes'] / 1e6:.0f}", "")
+    ratios = f"{theirs['seconds'] / ours['seconds']:.0f} x time, {theirs['bytes'] / ours['bytes']:.0f} x memory"
+    row("Levin, sparse direct", f"{theirs['seconds']:.1f}", f"{theirs['bytes'] / 1e6:.0f}", ratios)
+
+
+def bandwidth(rounds):
+    """What the memory would allow: every array read or written just once."""
+    images = cases.case("tiled")
+    graph, pixels = kernel.Graph(*images), cases.spread_seeds(images[2], 1000)
+    source = np.zeros(1 << 25, np.float32)
+    target = np.ones_like(source)
+    functions = {
+        "copy": partial(np.copyto, target, source),
+        "field": partial(kernel.field, graph, int(pixels[500])),
+        "nearest": partial(kernel.nearest, graph, pixels, 8),
+    }
+    found = medians(functions, rounds)
+    rate = 2 * source.nbytes / found["copy"]
+    # Luminance and range are read, a distance written; for K nearest, the lists and the bounds are written, too.
+    floors = {"field": 12 * images[2].size / rate, "nearest": (12 + 8 * 8 + 4) * images[2].size / rate}
+    head(f"Against memory bandwidth ({rate / 1e9:.1f} GB/s), tiled", "what", "floor ms", "measured ms", "ratio")
+    for key, floor in floors.items():
+        row(key, f"{1e3 * floor:.1f}", f"{1e3 * found[key]:.0f}", f"{found[key] / floor:.0f}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="no Levin, at most 4 megapixels, fewer rounds")
+    parser.add_argument("--rounds", type=int, help="runs per figure (7; 3 if quick)")
+    options = parser.parse_args()
+    if not kernel.available():
+        raise SystemExit(kernel.reason())
+    rounds = options.rounds or (3 if options.quick else 7)
+    print(f"{processor()}, {platform.platform(terse=True)}, Python {platform.python_version()}, {time.strftime('%F')}")
+    one_field(rounds)
+    threads(min(rounds, 3))
+    incremental(rounds)
+    memory()
+    growth(options.quick, min(rounds, 3))
+    bandwidth(rounds)
+    if not options.quick:
+        levin()
+
+
+def processor():
+    """The processor's name."""
+    try:
+        for line in Path("/proc/cpuinfo").read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":")[1].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
+
+
+if __name__ == "__main__":
+    main()

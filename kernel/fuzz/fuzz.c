@@ -1,0 +1,225 @@
+/* Random images of odd sizes and strides, half of them with something wrong, through every entry point.
+ *
+ *     fuzz SEED ROUNDS
+ *
+ * Right input must give the distances of a plain relaxation, to the bit; wrong input must be refused. Every array is
+ * allocated to its exact size, so that an address sanitizer sees a step beyond it. Prints a hash of all results, which
+ * must be the same for every compiler, instruction set and optimization. Exits with 1 at the first wrong result.
+ */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../src/reflcolor_kernel.h"
+
+static uint64_t state, hash = UINT64_C(14695981039346656037);
+
+static uint32_t below(uint32_t n)
+{
+    state ^= state << 13;
+    state ^= state >> 7;
+    state ^= state << 17;
+    return (uint32_t)((state >> 11) % n);
+}
+
+static void note(const void *bytes, size_t size)
+{
+    const unsigned char *b = bytes;
+    for (size_t i = 0; i < size; i++) {
+        hash = (hash ^ b[i]) * UINT64_C(1099511628211);
+    }
+}
+
+static void expect(int truth, const char *what)
+{
+    if (!truth) {
+        printf("wrong: %s\n", what);
+        exit(1);
+    }
+}
+
+static void *room(size_t size)
+{
+    void *p = malloc(size);
+    expect(p != NULL, "out of memory");
+    return p;
+}
+
+/* Relax every edge until nothing changes. */
+static void plain_field(const rc_graph *g, int64_t source, float *distance)
+{
+    const int64_t h = g->height, w = g->width;
+    for (int64_t i = 0; i < h * w; i++) {
+        distance[i] = INFINITY;
+    }
+    distance[source] = 0.0f;
+    for (int changed = 1; changed;) {
+        changed = 0;
+        for (int64_t i = 0; i < 9 * h * w; i++) {
+            const int64_t r = i / 9 / w, c = i / 9 % w, dr = i % 9 / 3 - 1, dc = i % 3 - 1, rq = r + dr;
+            int64_t cq = c + dc;
+            if (g->wrap) {
+                cq = (cq + w) % w;
+            }
+            if (rq < 0 || rq >= h || cq < 0 || cq >= w || (g->neighbors == 4 && dr && dc)) {
+                continue;
+            }
+            const int64_t p = (r + 1) * (w + 2) + c + 1, q = (rq + 1) * (w + 2) + cq + 1;
+            const float dd = g->d[q] - g->d[p], cost = dr && dc ? g->step_cost * 1.41421356237309504880f : g->step_cost;
+            const float e = (g->beta * (dd * dd) + 1.0f) * fabsf(g->y[q] - g->y[p]) + cost;
+            const float to = distance[r * w + c] + e;
+            if (to < distance[rq * w + cq]) {
+                distance[rq * w + cq] = to;
+                changed = 1;
+            }
+        }
+    }
+}
+
+static void check_nearest(const rc_graph *g, int64_t count, const int64_t *pixels, const float *fields)
+{
+    const int64_t h = g->height, w = g->width, size = rc_plane_size(h, w);
+    const int32_t k = 1 + (int32_t)below(below(4) ? 12 : 40);
+    float *labels = room((size_t)(size * 2 * k) * sizeof *labels);
+    expect(rc_nearest(g, count, pixels, k, labels, NULL) == RC_OK, "rc_nearest refuses a right call");
+    for (int64_t i = 0; i < h * w; i++) {
+        const int64_t p = (i / w + 1) * (w + 2) + i % w + 1;
+        const float *list = labels + p * 2 * k;
+        int32_t seeds[64];
+        memcpy(seeds, list + k, (size_t)k * sizeof *seeds);
+        for (int32_t n = 0; n < k; n++) {
+            int64_t nearer = 0, as_near = 0;
+            for (int64_t j = 0; j < count; j++) {
+                nearer += fields[j * h * w + i] < list[n];
+                as_near += fields[j * h * w + i] <= list[n] && fields[j * h * w + i] < INFINITY;
+            }
+            expect(n == 0 || list[n - 1] <= list[n], "a list is not in order");
+            if (seeds[n] < 0) {
+                expect(seeds[n] == -1 && list[n] == INFINITY && as_near <= n, "a place is empty for no reason");
+                continue;
+            }
+            expect(fields[seeds[n] * h * w + i] == list[n], "a listed distance is not the seed's");
+            expect(nearer <= n && n < as_near, "a nearer seed is missing");
+            for (int32_t m = 0; m < n; m++) {
+                expect(seeds[m] != seeds[n], "a seed is listed twice");
+            }
+        }
+        note(list, (size_t)k * 2 * sizeof *list);
+    }
+    float *sums = room((size_t)(h * w) * 4 * sizeof *sums), *colors = room((size_t)count * 2 * sizeof *colors);
+    for (int64_t j = 0; j < 2 * count; j++) {
+        colors[j] = (float)below(256);
+    }
+    float alpha = (float)below(16);
+    alpha /= below(2) ? 1.0f : 3.0f;
+    expect(rc_blend_nearest(h, w, 0, h, k, labels, count, colors, alpha, sums, sums + h * w, sums + 2 * h * w,
+                            sums + 3 * h * w) == RC_OK, "rc_blend_nearest refuses a right call");
+    note(sums, (size_t)(h * w) * 4 * sizeof *sums);
+    free(sums);
+    free(colors);
+    free(labels);
+}
+
+static void check_blend(int64_t h, int64_t w, int64_t count, const float *fields)
+{
+    const size_t n = (size_t)(h * w);
+    float *sums = room(n * 4 * sizeof *sums);
+    int32_t *index = room(n * sizeof *index);
+    for (size_t i = 0; i < n; i++) {
+        sums[i] = INFINITY;
+        sums[n + i] = sums[2 * n + i] = sums[3 * n + i] = 0.0f;
+        index[i] = -1;
+    }
+    const float alpha = (float)below(40) / 4.0f;
+    for (int64_t j = 0; j < count; j++) {
+        const float color0 = (float)below(256), color1 = (float)below(256);
+        expect(rc_blend_add(h, w, fields + j * h * w, w, alpha, (int32_t)j, color0, color1, sums, index, sums + n,
+                            sums + 2 * n, sums + 3 * n) == RC_OK, "rc_blend_add refuses a right call");
+    }
+    expect(rc_blend_finish(h * w, sums + n, sums + 2 * n, sums + 3 * n) == RC_OK, "rc_blend_finish refuses");
+    for (size_t i = 0; i < n; i++) {
+        expect(index[i] < 0 ? isinf(sums[i]) : sums[i] == fields[(size_t)index[i] * n + i], "not the nearest seed");
+        expect(sums[2 * n + i] >= 0.0f && sums[2 * n + i] < 256.0f, "a mean lies beyond the colors");
+    }
+    note(sums, n * 4 * sizeof *sums);
+    note(index, n * sizeof *index);
+    free(sums);
+    free(index);
+}
+
+static void one_round(void)
+{
+    const int64_t h = 1 + below(below(4) ? 6 : 24), w = 1 + below(below(4) ? 6 : 24), size = rc_plane_size(h, w);
+    const int64_t sy = w + below(3), sd = w + below(3), sv = w + below(3), count = 1 + below(9);
+    const uint32_t levels = 1 + below(below(2) ? 4 : 1000);
+    float *lum = room((size_t)((h - 1) * sy + w) * sizeof *lum), *ran = room((size_t)((h - 1) * sd + w) * sizeof *ran);
+    uint8_t *valid = room((size_t)((h - 1) * sv + w));
+    float *y = room((size_t)size * sizeof *y), *d = room((size_t)size * sizeof *d);
+    float *plane = room((size_t)size * sizeof *plane), *fields = room((size_t)(h * w * count) * sizeof *fields);
+    int64_t *pixels = room((size_t)count * sizeof *pixels);
+    for (int64_t i = 0; i < h * w; i++) {
+        lum[i / w * sy + i % w] = (float)below(levels) * 255.0f / (float)levels;
+        ran[i / w * sd + i % w] = (float)below(levels) * 255.0f / (float)levels;
+        valid[i / w * sv + i % w] = below(5) > 0;
+    }
+    for (int64_t j = 0; j < count; j++) {
+        pixels[j] = below((uint32_t)(h * w));
+        valid[pixels[j] / w * sv + pixels[j] % w] = 1;
+    }
+    rc_graph g = {h, w, 8, 0, 1e6f, 0.0f, y, d};
+    g.neighbors = below(2) ? 4 : 8;
+    g.wrap = (int32_t)below(2);
+    g.beta = below(3) ? (float)below(3) : 1e6f;
+    g.step_cost = below(2) ? 0.0f : 0.5f;
+    const float unusable[3] = {NAN, INFINITY, -INFINITY};
+    for (int64_t i = 0; i < h * w; i++) {
+        if (!valid[i / w * sv + i % w] && below(2)) {
+            lum[i / w * sy + i % w] = unusable[below(3)]; /* of no account where nothing returned */
+        }
+    }
+    expect(rc_graph_fill(h, w, g.wrap, lum, sy, ran, sd, valid, sv, y, d) == RC_OK, "rc_graph_fill refuses");
+    float *plain = room((size_t)(h * w) * sizeof *plain);
+    for (int64_t j = 0; j < count; j++) {
+        expect(rc_field(&g, 1, pixels + j, NULL, plane, NULL) == RC_OK, "rc_field refuses a right call");
+        plain_field(&g, pixels[j], plain);
+        for (int64_t r = 0; r < h; r++) {
+            memcpy(fields + j * h * w + r * w, plane + (r + 1) * (w + 2) + 1, (size_t)w * sizeof *plane);
+        }
+        expect(!memcmp(fields + j * h * w, plain, (size_t)(h * w) * sizeof *plain), "a distance differs");
+        note(plain, (size_t)(h * w) * sizeof *plain);
+    }
+    check_nearest(&g, count, pixels, fields);
+    check_blend(h, w, count, fields);
+
+    const int64_t beyond = below(9), outside = below(2) ? -1 - beyond : h * w + beyond;
+    expect(rc_field(&g, 1, &outside, NULL, plane, NULL) == RC_BAD_SEED, "a seed outside is taken");
+    expect(rc_nearest(&g, count, pixels, below(2) ? 0 : 2000, plane, NULL) == RC_BAD_VALUE, "a wrong k is taken");
+    expect(rc_field(&g, 0, pixels, NULL, plane, NULL) == RC_BAD_SIZE, "no seeds are taken");
+    g.beta = unusable[below(3)];
+    expect(rc_field(&g, 1, pixels, NULL, plane, NULL) == RC_BAD_VALUE, "a wrong beta is taken");
+    lum[pixels[0] / w * sy + pixels[0] % w] = unusable[below(3)];
+    expect(rc_graph_fill(h, w, g.wrap, lum, sy, ran, sd, valid, sv, y, d) == RC_BAD_VALUE, "NaN is taken");
+    expect(rc_graph_fill(h, w, g.wrap, lum, w - 1, ran, sd, valid, sv, y, d) == RC_BAD_SIZE, "a stride is taken");
+    free(lum);
+    free(ran);
+    free(valid);
+    free(y);
+    free(d);
+    free(plane);
+    free(fields);
+    free(pixels);
+    free(plain);
+}
+
+int main(int argc, char **argv)
+{
+    state = UINT64_C(88172645463325252) + (argc > 1 ? strtoull(argv[1], NULL, 10) : 0);
+    const long rounds = argc > 2 ? strtol(argv[2], NULL, 10) : 1000;
+    for (long i = 0; i < rounds; i++) {
+        one_round();
+    }
+    printf("%016" PRIx64 "\n", hash);
+    return 0;
+}

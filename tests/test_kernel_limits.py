@@ -1,0 +1,178 @@
+"""What the kernel refuses, how it stops, and that it never touches memory that is not its own."""
+
+import ctypes
+import os
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reflcolor_addon import kernel
+from reflcolor_addon.errors import Cancelled
+
+KERNEL = Path(__file__).resolve().parent.parent / "kernel"
+
+
+@pytest.fixture
+def library():
+    return kernel._library()
+
+
+@pytest.mark.parametrize(
+    ("height", "width"),
+    [(0, 5), (5, 0), (-1, 5), (5, -1), (2**16, 2**16), (2**31, 1), (1, 2**31), (2**62, 2**62), (-(2**63), 7)],
+)
+def test_a_size_that_is_no_size_or_too_large_is_refused_by_a_code(library, height, width):
+    assert library.rc_plane_size(height, width) == -2
+
+
+def test_null_pointers_are_refused_by_a_code(library):
+    graph = kernel._CGraph(2, 2, 8, 0, 1.0, 0.0, None, None)
+    assert library.rc_field(None, 1, None, None, None, None) == -1
+    assert library.rc_field(graph, 1, None, None, None, None) == -1
+    assert library.rc_nearest(graph, 1, None, 1, None, None) == -1
+    assert library.rc_graph_fill(2, 2, 0, None, 2, None, 2, None, 2, None, None) == -1
+    assert library.rc_blend_add(2, 2, None, 2, 6.0, 0, 0.0, 0.0, *[None] * 5) == -1
+    assert library.rc_blend_finish(4, None, None, None) == -1
+    assert library.rc_blend_nearest(2, 2, 0, 2, 1, None, 1, None, 6.0, *[None] * 4) == -1
+
+
+def test_a_seed_count_that_is_no_count_is_refused_by_a_code(library):
+    flat = np.zeros((2, 2), np.float32)
+    graph, plane, pixel = kernel.Graph(flat, flat, flat == 0), np.zeros(64, np.float32), np.zeros(1, np.int64)
+    for count in (0, -1, 2**31, 2**62):
+        assert library.rc_field(graph._c, count, pixel.ctypes.data, None, plane.ctypes.data, None) == -2
+        assert library.rc_nearest(graph._c, count, pixel.ctypes.data, 1, plane.ctypes.data, None) == -2
+
+
+@pytest.fixture(scope="module")
+def large_graph():
+    random = np.random.default_rng(0)
+    luminance, range_image = (random.random((2, 2000, 2000)) * 255).astype(np.float32)
+    return kernel.Graph(luminance, range_image, np.ones((2000, 2000), bool))
+
+
+@pytest.mark.parametrize("call", ["field", "nearest", "blend_all"])
+def test_a_running_call_stops_within_50_ms(large_graph, call):
+    control = kernel.Control()
+    pixels = np.arange(0, 4_000_000, 40_000)
+    calls = {
+        "field": lambda: [kernel.field(large_graph, 0, control=control) for _ in range(50)],
+        "nearest": lambda: kernel.nearest(large_graph, pixels, 8, control=control),
+        "blend_all": lambda: kernel.blend_all(large_graph, pixels, np.zeros((100, 2)), 6.0, threads=2, control=control),
+    }
+    before = threading.active_count()
+    moment = []
+
+    def cancel():
+        # CPU time of the whole process: other programs on the machine do not count.
+        moment.append(time.process_time())
+        control.cancel()
+
+    timer = threading.Timer(0.3, cancel)
+    timer.start()
+    with pytest.raises(Cancelled):
+        calls[call]()
+    taken = time.process_time() - moment[0]
+    timer.join()
+    assert taken < 0.05
+    assert threading.active_count() == before
+
+
+def test_progress_counts_pixels_of_a_field_and_seeds_of_a_search(large_graph):
+    control = kernel.Control()
+    kernel.field(large_graph, 0, control=control)
+    assert control.done >= 0.99 * 4_000_000
+    control = kernel.Control()
+    kernel.nearest(large_graph, [0, 5, 7], 1, control=control)
+    assert control.done == 3
+
+
+def test_cancelled_runs_leave_no_memory_behind(large_graph):
+    statm = Path("/proc/self/statm")
+    if not statm.exists():
+        pytest.skip("reads the process's memory from /proc")
+    control = kernel.Control()
+    control.cancel()
+
+    def run():
+        for _ in range(20):
+            with pytest.raises(Cancelled):
+                kernel.nearest(large_graph, [0, 1000], 2, control=control)
+        return int(statm.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+    first = run()
+    assert run() - first < 4 * 4_000_000
+
+
+def sanitizing_compiler(tmp_path):
+    """A compiler whose address and undefined-behavior sanitizers work here, or a skip."""
+    probe = tmp_path / "probe.c"
+    probe.write_text("int main(void) { return 0; }\n")
+    for name in ("gcc", "clang", "cc"):
+        if compiler := shutil.which(name):
+            command = [compiler, "-fsanitize=address,undefined", "-o", tmp_path / "probe", probe]
+            if not subprocess.run(command, capture_output=True, check=False).returncode:
+                return compiler
+    pytest.skip("no compiler with address and undefined-behavior sanitizers")
+
+
+def run_fuzz(compiler, tmp_path, *options, rounds):
+    """Compile the kernel with its fuzz driver, run it, return what it prints."""
+    program = tmp_path / "fuzz"
+    sources = [KERNEL / "fuzz" / "fuzz.c", *sorted((KERNEL / "src").glob("*.c"))]
+    common = ["-std=c11", "-ffp-contract=off", "-o", program, *sources, "-lm"]
+    subprocess.run([*compiler, *options, *common], check=True, capture_output=True)
+    done = subprocess.run([program, "1", str(rounds)], capture_output=True, text=True, timeout=100, check=False)
+    assert not done.returncode, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.mark.parametrize("lanes", [(), ("-DRC_SCALAR",)], ids=["vector", "scalar"])
+def test_random_sizes_and_strides_pass_the_sanitizers(tmp_path, lanes):
+    compiler = sanitizing_compiler(tmp_path)
+    sanitize = ("-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    run_fuzz([compiler], tmp_path, *sanitize, *lanes, rounds=1500)
+
+
+def test_every_optimization_and_instruction_set_gives_the_same_bits(tmp_path):
+    zig = [sys.executable, "-m", "ziglang", "cc"]
+    if subprocess.run([*zig, "--version"], capture_output=True, check=False).returncode:
+        pytest.skip("no ziglang")
+    variants = [("-O2",), ("-O0",), ("-O3", "-DRC_SCALAR")]
+    hashes = {run_fuzz(zig, tmp_path, "-fno-sanitize=all", *options, rounds=1000) for options in variants}
+    assert len(hashes) == 1
+
+
+def test_a_kernel_of_another_interface_is_not_used(monkeypatch):
+    kernel._load.cache_clear()
+    monkeypatch.setattr(kernel, "ABI_VERSION", 999)
+    try:
+        assert not kernel.available()
+        assert "999" in kernel.reason()
+    finally:
+        kernel._load.cache_clear()
+
+
+@pytest.mark.parametrize("content", [b"", b"not a library"])
+def test_a_library_that_does_not_load_is_a_reason_and_no_crash(monkeypatch, tmp_path, content):
+    import reflcolor_kernel
+
+    library = tmp_path / "library"
+    library.write_bytes(content)
+    monkeypatch.setattr(reflcolor_kernel, "library_path", lambda: library)
+    kernel._load.cache_clear()
+    try:
+        assert "does not load" in kernel.reason()
+    finally:
+        kernel._load.cache_clear()
+
+
+def test_the_interface_is_plain_c(library):
+    assert library.rc_abi_version() == kernel.ABI_VERSION
+    assert ctypes.sizeof(kernel._CGraph) == 48

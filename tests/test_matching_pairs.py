@@ -1,0 +1,56 @@
+"""The camera from pairs picked by hand."""
+
+import numpy as np
+import painted_room
+import pytest
+
+from reflcolor_addon.matching.pairs import camera_from_pairs
+from reflcolor_addon.matching.photo_image import PhotoImage
+
+PHOTO = PhotoImage("photo", np.zeros((360, 480, 3), np.uint8))
+POINTS = np.array([
+    [-2.0, 5.0, -1.0], [2.0, 5.0, 0.5], [0.6, 3.4, -0.2], [1.2, 3.4, -1.2], [-3.0, 4.0, 0.3], [-1.0, 3.0, -1.5],
+    [0.5, 4.5, -1.5], [-0.5, 5.0, 1.0],
+])  # fmt: skip
+
+
+@pytest.fixture
+def camera():
+    return painted_room.camera((0.9, 0.3, 0.2), yaw_deg=-9, pitch_deg=-7, roll_deg=2, focal=1.1)
+
+
+@pytest.mark.parametrize("count", [6, 7, 8])
+def test_exact_pairs_give_back_where_the_photo_was_taken(camera, count):
+    found, error, left_out = camera_from_pairs(POINTS[:count], camera.project(POINTS[:count])[0], PHOTO)
+    assert error < 0.002
+    assert len(left_out) == 0
+    np.testing.assert_allclose(found.project(POINTS)[0], camera.project(POINTS)[0], atol=4)
+
+
+def test_four_pairs_place_a_photo_of_usual_focal_length(camera):
+    found, error, _ = camera_from_pairs(POINTS[:4], camera.project(POINTS[:4])[0], PHOTO)
+    assert found is not None
+    assert error < 0.02
+
+
+def test_pairs_clicked_two_pixels_off_do_as_well(camera):
+    xy = camera.project(POINTS)[0] + np.random.default_rng(3).normal(0, 2, (len(POINTS), 2))
+    found, _, _ = camera_from_pairs(POINTS, xy, PHOTO)
+    np.testing.assert_allclose(found.project(POINTS)[0], camera.project(POINTS)[0], atol=10)
+
+
+def test_one_slip_among_eight_is_found_and_left_out(camera):
+    xy = camera.project(POINTS)[0]
+    xy[3] += [120, -90]
+    found, _, left_out = camera_from_pairs(POINTS, xy, PHOTO)
+    assert left_out.tolist() == [3]
+    np.testing.assert_allclose(found.project(POINTS)[0][:3], xy[:3], atol=4)
+
+
+def test_three_pairs_are_too_few(camera):
+    assert camera_from_pairs(POINTS[:3], camera.project(POINTS[:3])[0], PHOTO)[0] is None
+
+
+def test_pairs_that_no_camera_sees_so_are_refused():
+    xy = np.random.default_rng(0).uniform(0, 360, (len(POINTS), 2))
+    assert camera_from_pairs(POINTS, xy, PHOTO)[0] is None

@@ -1,0 +1,188 @@
+"""Seeds from photos: what is verified, what is not, and what a person picked."""
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import painted_room
+import pytest
+
+from reflcolor_addon import Cancelled, ImageError, Scan, Seeds, SeedsError, Settings
+from reflcolor_addon.matching import draw_matches, match_photos, match_seeds, match_site
+
+FEW = Settings(slic_segments=150)
+
+
+@pytest.fixture(scope="module")
+def room():
+    return painted_room.scan()
+
+
+@pytest.fixture(scope="module")
+def turned():
+    return painted_room.photo(painted_room.camera(yaw_deg=12, pitch_deg=-9, focal=1.0))
+
+
+@pytest.fixture(scope="module")
+def noise():
+    coarse = np.random.default_rng(5).uniform(0, 255, (12, 16, 3)).astype(np.uint8)
+    return cv2.resize(coarse, (480, 360), interpolation=cv2.INTER_CUBIC)
+
+
+@pytest.fixture(scope="module")
+def matching(room, turned):
+    return match_photos(room, [turned], FEW)
+
+
+@pytest.fixture(scope="module")
+def refused(room, noise):
+    """What a photo of something else gives, with two pairs picked by hand, and the progress on the way."""
+    hand = Seeds([40, 80], [40, 80], [[1, 2, 3]] * 2, photos=("photo 1",) * 2, photo_xy=[[5, 5], [50, 50]])
+    fractions = []
+    found = match_photos(room, [noise], FEW, hand=hand, progress=lambda fraction, text: fractions.append(fraction))
+    return found, fractions
+
+
+def chroma_error(seeds, scan):
+    return np.abs(seeds.rgb.astype(int) - scan.color[seeds.rows, seeds.cols]).max(axis=1)
+
+
+def test_a_photo_turned_on_the_spot_is_verified_and_its_seeds_have_the_true_color(matching, room):
+    (report,) = matching.photos
+    assert report.verified, report.note
+    assert matching.warnings == ()
+    posed = np.array([reason in ("pose", "homography") for reason in matching.seeds.reason])
+    assert posed.sum() > 50
+    # A few lie at the border between two patches of paint.
+    assert (chroma_error(matching.seeds, room)[posed] < 40).mean() > 0.85
+    assert (matching.seeds.confidence[posed] > 0.4).all()
+
+
+def test_seeds_lie_on_pixels_with_a_return_one_per_superpixel(matching, room):
+    seeds = matching.seeds
+    assert room.valid[seeds.rows, seeds.cols].all()
+    assert len(set(zip(seeds.rows.tolist(), seeds.cols.tolist(), strict=True))) == len(seeds)
+    assert len(seeds) <= 2 * FEW.slic_segments
+
+
+def test_the_same_input_gives_the_same_seeds_whatever_the_thread_count(matching, room, turned):
+    threads = cv2.getNumThreads()
+    try:
+        cv2.setNumThreads(1)
+        again = match_seeds(room, [turned], FEW)
+    finally:
+        cv2.setNumThreads(threads)
+    for field in ("rows", "cols", "rgb", "photo_xy", "confidence"):
+        np.testing.assert_array_equal(getattr(again, field), getattr(matching.seeds, field))
+    assert again.reason == matching.seeds.reason
+
+
+def test_an_unrelated_photo_is_refused_said_so_and_no_worse_than_its_mean_color(refused, noise):
+    matching, _ = refused
+    assert not matching.photos[0].verified
+    assert any("could not be verified" in warning for warning in matching.warnings)
+    mean = noise.reshape(-1, 3).mean(axis=0)
+    found = matching.seeds.rgb[np.array(matching.seeds.reason) == "appearance"]
+    assert np.median(np.abs(found - mean).max(axis=1)) <= 12
+    assert len(found) > 50
+
+
+def test_two_pairs_are_too_few_and_the_warning_says_how_many_it_takes(refused):
+    matching, _ = refused
+    assert any("at least 4" in warning for warning in matching.warnings)
+    assert matching.seeds.reason[:2] == ("hand", "hand")
+
+
+def test_progress_rises_to_the_end(refused):
+    _, fractions = refused
+    assert fractions == sorted(fractions)
+    assert fractions[0] == 0
+    assert fractions[-1] == 1
+
+
+def test_cancelling_ends_the_work(room, noise):
+    with pytest.raises(Cancelled):
+        match_seeds(room, [noise], FEW, cancelled=lambda: True)
+
+
+def test_six_pairs_picked_by_hand_place_a_photo_from_the_side(room):
+    camera = painted_room.camera((1.9, 1.2, 0.4), yaw_deg=-32)
+    photo = painted_room.photo(camera)
+    xy, _ = camera.project(room.points)
+    inside = room.valid & (xy > 10).all(axis=-1) & (xy < [470, 350]).all(axis=-1)
+    rows, cols = np.argwhere(inside)[:: inside.sum() // 7][:6].T
+    hand = Seeds(rows, cols, room.color[rows, cols], photos=("photo 1",) * 6, photo_xy=xy[rows, cols])
+    matching = match_photos(room, [photo], FEW, hand=hand)
+    (report,) = matching.photos
+    assert report.verified
+    assert report.reason == "hand"
+    assert matching.seeds.reason[:6] == ("hand",) * 6
+    np.testing.assert_array_equal(matching.seeds.rgb[:6], hand.rgb)
+    posed = np.array([reason == "pose" for reason in matching.seeds.reason])
+    assert posed.sum() > 20
+    assert (chroma_error(matching.seeds, room)[posed] < 40).mean() > 0.8
+
+
+def test_scans_of_a_site_share_what_they_learn(room, turned):
+    unseen = painted_room.scan(rows=40, columns=40, step_deg=0.5, name="corner")
+    unseen = replace(unseen, points=unseen.points[:, ::-1] * [1, -1, 1], pose=np.diag([1.0, -1, 1, 1]))
+    first, second = match_site([room, unseen], [turned], FEW)
+    assert first.photos[0].verified
+    assert len(second.seeds) > 0
+
+
+def test_a_scan_with_one_percent_of_returns_gives_seeds(room, turned):
+    valid = room.valid & (np.random.default_rng(0).random(room.shape) < 0.01)
+    sparse = Scan(name="sparse", points=room.points, reflectance=room.reflectance, valid=valid)
+    seeds = match_seeds(sparse, [turned], FEW)
+    assert len(seeds) > 0
+    assert valid[seeds.rows, seeds.cols].all()
+
+
+@pytest.mark.parametrize("matching", ["paper", "verified"])
+def test_a_photo_of_one_color_gives_that_color(room, matching):
+    photo = np.full((90, 120, 3), (200, 120, 40), np.uint8)
+    seeds = match_seeds(room, [photo], Settings(matching=matching, slic_segments=60))
+    assert (np.abs(seeds.rgb.astype(int) - [200, 120, 40]) <= 1).all()
+
+
+def test_a_tiny_photo_is_refused_in_one_line(room):
+    with pytest.raises(ImageError, match=r"photo 1: has 8 x 4 pixels, expected at least 16 on each side"):
+        match_seeds(room, [np.zeros((4, 8, 3), np.uint8)])
+
+
+def test_a_gray_array_is_refused_in_one_line(room):
+    with pytest.raises(ImageError, match=r"photo 1: expected \(H, W, 3\) uint8"):
+        match_seeds(room, [np.zeros((40, 80), np.uint8)])
+
+
+def test_a_missing_photo_is_refused_by_its_name(room, tmp_path):
+    with pytest.raises(ImageError, match=r"gone\.jpg"):
+        match_seeds(room, [tmp_path / "gone.jpg"])
+
+
+def test_no_photo_at_all_is_refused(room):
+    with pytest.raises(SeedsError, match="no photo"):
+        match_seeds(room, [])
+
+
+def test_a_scan_without_a_return_is_refused(turned):
+    nothing = np.zeros((20, 30))
+    scan = Scan(name="empty", points=np.zeros((20, 30, 3)), reflectance=nothing, valid=nothing.astype(bool))
+    with pytest.raises(SeedsError, match="empty: no pixel has a return"):
+        match_seeds(scan, [turned])
+
+
+def test_reason_and_confidence_survive_saving(matching, tmp_path):
+    matching.seeds.save(tmp_path / "found.json")
+    loaded = Seeds.load(tmp_path / "found.json")
+    assert loaded.reason == matching.seeds.reason
+    np.testing.assert_allclose(loaded.confidence, matching.seeds.confidence, atol=5e-4)
+
+
+def test_matches_are_drawn_with_scan_and_photo_side_by_side(matching, room, turned):
+    drawing = draw_matches(room, [turned], matching.seeds)
+    assert drawing.dtype == np.uint8
+    assert drawing.shape[0] == 720
+    # Lines of verified seeds.
+    assert (drawing == (60, 200, 90)).all(axis=-1).any() or (drawing == (60, 160, 240)).all(axis=-1).any()
