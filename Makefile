@@ -4,6 +4,7 @@
 # make build   the extension's zip for this machine and this Python, in dist/
 # make dist    the zip to hand out: for this platform, with the wheels of every Python that a Blender runs
 # make dist-all  the same for every platform that has the wheels
+# make bench   how fast the engine is, beside others (python -m benchmarks.geodesic); a quarter of an hour
 # make lint    the style alone;  make format  mends it
 # make clean   removes what was built;  make distclean  the environments, too
 #
@@ -15,7 +16,7 @@ PYTHON ?=
 FOR_PYTHON ?=
 RUN = $(VENV)/bin/python
 
-.PHONY: help setup kernel build dist dist-all demo lint format test test-one test-all lock clean distclean
+.PHONY: help setup kernel build dist dist-all demo bench lint format test test-one test-all lock clean distclean
 
 help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
@@ -40,6 +41,9 @@ dist-all: setup
 
 demo: build
 	@$(RUN) tools/demo.py
+
+bench: setup kernel
+	@$(RUN) -m benchmarks.geodesic
 
 lint: setup
 	@$(VENV)/bin/ruff check

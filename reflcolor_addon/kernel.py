@@ -13,7 +13,7 @@ number of threads.
     mean = kernel.blend_all(graph, pixels, colors, alpha, threads=2, control=control)
 
     distances, seeds = kernel.nearest(graph, pixels, k, control=control)      # (H, W, k) float32 and int32
-    mean, bound = kernel.blend_nearest(distances, seeds, colors, alpha)
+    mean, bound = kernel.blend_nearest(distances, seeds, colors, alpha, control=control)
 
 A pixel is ``row * width + column``. A ``Control`` carries the wish to cancel into the kernel and its progress out.
 
@@ -369,9 +369,13 @@ class Blend:
 
     def mean(self):
         """Return the `Mean` of the seeds so far; more can be added afterwards."""
-        mean = Mean(*(sums.copy() for sums in self._mean))
-        _check(_library().rc_blend_finish(mean.weight.size, _address(mean.weight), *map(_address, mean.chroma)))
-        return mean
+        return _means_of(Mean(*(sums.copy() for sums in self._mean)))
+
+
+def _means_of(sums):
+    """Turn sums into means, in place."""
+    _check(_library().rc_blend_finish(sums.weight.size, _address(sums.weight), *map(_address, sums.chroma)))
+    return sums
 
 
 def blend_all(graph, pixels, colors, alpha, *, threads=1, control=None, finished=None):
@@ -440,7 +444,7 @@ def blend_all(graph, pixels, colors, alpha, *, threads=1, control=None, finished
         worker.join()
     if failures:
         raise failures[0]
-    return blend.mean()
+    return _means_of(blend._mean)
 
 
 def blend_nearest(distances, seeds, colors, alpha, *, control=None):

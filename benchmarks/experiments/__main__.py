@@ -1,8 +1,8 @@
 """The paper's three experiments made anew: python -m benchmarks.experiments FOLDER
 
 Simulates the scenes that are not in FOLDER yet, colorizes them from seeds, and writes the pictures of
-docs/experiments.md to FOLDER as JPEG; prints the tables of that page. Needs the zip of `make build`, and about ten
-minutes.
+docs/experiments.md to FOLDER as JPEG; prints the tables of that page. Needs the zip of `make build`, and about a
+quarter of an hour.
 """
 
 import argparse
@@ -72,10 +72,11 @@ def print_tables(groups, results):
     for colors, seeded in (("of the photos", hand), ("that are true", true)):
         rows = [tables.range_row(case, own, SETTINGS["Yatziv"], SETTINGS["Paper"]) for case, own in seeded]
         print(f"\nbeta 0 → beta 1, seeds by hand with colors {colors}\n\n{tables.table(tables.RANGE_TITLES, rows)}")
-        rows = [tables.settings_row(case, own, SETTINGS.values()) for case, own in seeded]
-        print(
-            f"\nSettings, seeds by hand with colors {colors}\n\n{tables.table(['scan', *SETTINGS], rows)}", flush=True
-        )
+    rows = [
+        tables.settings_row(case, (own, truly), SETTINGS.values())
+        for (case, own), (_, truly) in zip(hand, true, strict=True)
+    ]
+    print(f"\nPresets, colors of the photos / true\n\n{tables.table(['scan', *SETTINGS], rows)}", flush=True)
 
 
 def draw_flat(folder, groups, results):

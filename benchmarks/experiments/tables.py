@@ -33,10 +33,13 @@ def method_row(case, colorization):
 METHOD_TITLES = ["scan", "seeds", "gray", "mean", "95 %", "PSNR, dB", "as is, mean"]
 
 
-def settings_row(case, seeds, settings):
-    """Mean CIEDE2000 of color alone under each of several settings."""
-    means = [_figures(case, colorize(case.scan, seeds, chosen).rgb)[0]["ciede2000_mean"] for chosen in settings]
-    return [_name(case), *(f"{mean:.2f}" for mean in means)]
+def settings_row(case, seedings, settings):
+    """Mean CIEDE2000 of color alone under each of several settings, from each of several Seeds."""
+    cells = []
+    for chosen in settings:
+        results = [colorize(case.scan, seeds, chosen).rgb for seeds in seedings]
+        cells.append(" / ".join(f"{_figures(case, rgb)[0]['ciede2000_mean']:.2f}" for rgb in results))
+    return [_name(case), *cells]
 
 
 def range_row(case, seeds, without, with_range):

@@ -37,6 +37,9 @@ static inline void insert(float *list, int32_t *ids, int32_t k, float d, int32_t
     for (int32_t i = whole - 4; i >= 0; i -= 4) {
         /* The first place has none before it; what is read there instead is replaced below. */
         const lanes at = lanes_load(list + i), before = lanes_load(list + i - 1);
+        if (!lanes_less(new_d, at)) {
+            return;
+        }
         const lanes at_j = lanes_load_int(ids + i), before_j = lanes_load_int(ids + i - 1);
         lanes_store_int(ids + i, lanes_choose(at, new_d, at_j, lanes_choose(before, new_d, new_j, before_j)));
         lanes_store(list + i, lanes_choose(at, new_d, at, lanes_choose(before, new_d, new_d, before)));

@@ -1,6 +1,6 @@
 """How a pixel of the scan falls into a photo: a camera for the scan's points, or a homography of the scan's grid.
 
-Both have the same face: ``project`` for many sites, ``projections`` of many candidates at once, ``moved`` to one of them.
+Both have the same face: ``project`` for many sites, ``projections`` of many candidates at once, ``moved`` to one.
 A candidate is a row of unitless numbers, each of a size that moves the picture by about a fiftieth.
 """
 

@@ -1,7 +1,7 @@
 """Where a photo may have been taken from: every direction at once, for a list of focal lengths and places.
 
 Seen from one place, the scan is a map over azimuth and elevation, and so is a photo of a known focal length; turning
-the photo left and right shifts its map. So one correlation by FFT tries every direction, on edge features (see `edges`),
+the photo left and right shifts its map. So one correlation by FFT tries every direction, on edge features (`edges`),
 normalized by what overlaps.
 """
 
