@@ -177,8 +177,7 @@ def bandwidth(rounds):
     """What the memory would allow: every array read or written just once."""
     images = cases.case("tiled")
     graph, pixels = kernel.Graph(*images), cases.spread_seeds(images[2], 1000)
-    source = np.zeros(1 << 25, np.float32)
-    target = np.ones_like(source)
+    source, target = np.ones(1 << 25, np.float32), np.ones(1 << 25, np.float32)
     functions = {
         "copy": partial(np.copyto, target, source),
         "field": partial(kernel.field, graph, int(pixels[500])),

@@ -1,6 +1,6 @@
 /* A monotone bucket queue of pixels over the bits of their distances, which sort like the distances themselves.
  *
- * Buckets are a thirty-second of an octave wide. One whose turn comes is emptied as it stands, in no order, while it is
+ * Buckets are a sixty-fourth of an octave wide. One whose turn comes is emptied as it stands, in no order, while it is
  * small; one that is large, or causes much rework, is dealt out to 32 finer ones first, up to twice more. Unordered
  * buckets cost some pixels a second visit and save the dealing; results do not depend on it, because the least fixed
  * point of d(q) = min_p fl(d(p) + e(p, q)) is unique: rounded addition is monotone.
@@ -13,13 +13,13 @@
 #include <string.h>
 
 /* Pixels taken from a bucket at once. */
-#define RC_BATCH 8
+#define RC_BATCH 16
 #define RC_CHUNK 116
 #define RC_CHUNKS_PER_BLOCK 128
 /* Bits of a distance below those that choose its bucket, per level; a level starts at a multiple of 64 buckets. */
 #define RC_LEVELS 4
-#define RC_SHIFT(level) (18 - 5 * (level))
-#define RC_COARSE 8192
+#define RC_SHIFT(level) (17 - 5 * (level))
+#define RC_COARSE 16384
 #define RC_BASE(level) ((level) ? RC_COARSE + 64 * ((level) - 1) : 0)
 #define RC_BUCKETS RC_BASE(RC_LEVELS)
 /* More chunks than this and a bucket is dealt out when its turn comes. */

@@ -7,8 +7,9 @@ from .models import GridHomography
 _RATIO = 0.9
 _SIDE = 900
 _LEAST_MATCHES = 12
-VARIANTS = (("gradient", "akaze"), ("gray", "akaze"), ("contrast", "sift"), ("inverted", "sift"))
-"""What is tried in turn: which image, and which features on it."""
+_MOST_POINTS = 3000
+VARIANTS = ("gradient", "gray", "contrast", "inverted")
+"""Which image of the reflectance is tried in turn; the photo's is the same, but never inverted."""
 
 
 def homographies(grid_image, scan_shape, photo):
@@ -28,10 +29,8 @@ def homographies(grid_image, scan_shape, photo):
     other = _sized(photo.levels[0][0])
     to_grid = np.diag([scan_shape[1] / own.shape[1], scan_shape[0] / own.shape[0], 1.0])
     to_photo = np.diag([photo.width / other.shape[1], photo.height / other.shape[0], 1.0])
-    for variant, kind in VARIANTS:
-        points = _matches(
-            _variant(own, variant), _variant(other, "contrast" if variant == "inverted" else variant), kind
-        )
+    for variant in VARIANTS:
+        points = _matches(_variant(own, variant), _variant(other, "contrast" if variant == "inverted" else variant))
         if points is None:
             continue
         cv2.setRNGSeed(0)
@@ -69,14 +68,11 @@ def _variant(image, name):
     return 255 - image if name == "inverted" else image
 
 
-def _matches(own, other, kind):
+def _matches(own, other):
     """Two (N, 2) float32 arrays of points that may belong together, in a fixed order; None where too few."""
     import cv2
 
-    if kind == "akaze":
-        detector, norm = cv2.AKAZE_create(threshold=0.0005, max_points=3000), cv2.NORM_HAMMING
-    else:
-        detector, norm = cv2.SIFT_create(3000, contrastThreshold=0.02), cv2.NORM_L2
+    detector = cv2.SIFT_create(_MOST_POINTS, contrastThreshold=0.02)
     described = []
     for image in (own, other):
         points, descriptors = detector.detectAndCompute(image, None)
@@ -87,7 +83,7 @@ def _matches(own, other, kind):
         order = np.lexsort((*descriptors.T[:4], at[:, 0], at[:, 1]))
         described.append((at[order] + 0.5, descriptors[order]))
     (own_at, own_described), (other_at, other_described) = described
-    pairs = cv2.BFMatcher(norm).knnMatch(own_described, other_described, k=2)
+    pairs = cv2.BFMatcher(cv2.NORM_L2).knnMatch(own_described, other_described, k=2)
     pairs = [pair[0] for pair in pairs if len(pair) == 2 and pair[0].distance < _RATIO * pair[1].distance]
     if len(pairs) < _LEAST_MATCHES:
         return None

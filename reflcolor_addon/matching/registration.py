@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import features
-from .refinement import Tiles, fitted, surfaces
+from .refinement import Tiles, fitted, surfaces, tightened
 from .scan_image import TONES, ScanImage, pixel_steps, toned
-from .search import FOCALS, SphereMap, map_step, sharpened, viewpoints
+from .search import ASIDE_FOCALS, FOCALS, SphereMap, climbed, map_step, sharpened, viewing_distance, viewpoints
 from .verification import NEEDED_AT_SCANNER, NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
@@ -17,6 +17,8 @@ _CONVINCING = 3.0
 _GUESSES = 14
 _TRIED = 5
 _PENALTY = 0.004
+_ROUNDS, _PROMISING = 5, 0.2
+_CLIMBERS = 4
 _LEAST_CONTRAST = 8
 _LEAST_PIXELS = 400
 
@@ -64,8 +66,11 @@ class ScanViews:
 
     def sphere(self, tone, center):
         """The `SphereMap` from a place."""
-        make = lambda: SphereMap(self.scan, self.tone(tone), np.array(center), self.step_deg)  # noqa: E731
-        return self._once(("sphere", tone, center), make)
+        return self._once(("sphere", tone, center), lambda: self.sphere_at(tone)(center))
+
+    def sphere_at(self, tone):
+        """What makes the `SphereMap` of a place anew."""
+        return lambda center: SphereMap(self.scan, self.tone(tone), np.array(center), self.step_deg)
 
     def _once(self, key, make):
         if key not in self._made:
@@ -140,7 +145,13 @@ def finely(views, photo, model, tone, rng):
         model, proof = refined(views, photo, model, tone, levels, free=free, rng=rng)
         if proof is NO_EVIDENCE:
             return model, proof
-    return model, evidence(views.image(tone, _FINE[0]), photo, model)
+    image, tiles = views.image(tone, _FINE[0]), views.tiles(tone, *_FINE)
+    for _ in range(2):
+        found = surfaces(image, tiles, photo, model, RADIUS)
+        if found is None:
+            return model, NO_EVIDENCE
+        model = tightened(found, model)
+    return model, evidence(image, photo, model)
 
 
 def _by_features(views, photo, tone, step):
@@ -175,20 +186,31 @@ def _from_scanner(views, photo, tone, step):
 
 def _from_aside(views, photo, tone, step):
     """Searching viewpoints"""
-    return _searched(views, photo, tone, viewpoints(views.scan), (0.0,), step)
+    return _searched(views, photo, tone, viewpoints(views.scan), (0.0, -15.0), step)
 
 
 def _searched(views, photo, tone, centers, pitches, step):
     rng = np.random.default_rng(0)
+    aside = len(centers) > 1
     maps, guesses = {}, []
     for center in centers:
         step(f"{photo.name}: searching directions")
         sphere = views.sphere(tone, center)
         maps[sphere.center] = sphere
-        guesses += sphere.guesses(photo, FOCALS if len(centers) == 1 else FOCALS[::2], pitches, (0.0,))
+        guesses += sphere.guesses(photo, ASIDE_FOCALS if aside else FOCALS, pitches, (0.0,))
     guesses.sort(key=lambda guess: -guess.score)
+    guesses = sharpened(maps, photo, guesses, 5)
+    if aside:
+        climbers = []
+        for guess in guesses:
+            if len(climbers) < _CLIMBERS and guess.center not in [other.center for other in climbers]:
+                climbers.append(guess)
+        for guess in climbers:
+            step(f"{photo.name}: searching viewpoints")
+            guesses.append(climbed(views.sphere_at(tone), photo, guess, viewing_distance(views.scan)))
+        guesses.sort(key=lambda guess: -guess.score)
     coarse = []
-    for guess in sharpened(maps, photo, guesses, 5)[:_GUESSES]:
+    for guess in guesses[:_GUESSES]:
         step(f"{photo.name}: trying directions")
         model = guess.camera(photo)
         coarse.append(refined(views, photo, model, tone, [(*_COARSE, 10, 1.5, 1.2)], free=model.ROTATION, rng=rng))
@@ -196,7 +218,7 @@ def _searched(views, photo, tone, centers, pitches, step):
     middle = []
     for model, _ in coarse[:_TRIED]:
         step(f"{photo.name}: trying directions")
-        free = model.ROTATION if len(centers) == 1 else model.POSE
+        free = model.POSE if aside else model.ROTATION
         middle.append(refined(views, photo, model, tone, [(*_MIDDLE, 10, 1.0, 0.8)], free=free, rng=rng))
     middle.sort(key=lambda found: -found[1].rank)
     best = Registration(None, NO_EVIDENCE, "search")
@@ -205,12 +227,21 @@ def _searched(views, photo, tone, centers, pitches, step):
         model, proof = finely(views, photo, model, tone, rng)
         if proof.rank > best.evidence.rank:
             best = Registration(model, proof, "search")
+    # A camera far from its guess needs several rounds: what it sees changes while it moves.
+    for _ in range(_ROUNDS):
+        if best.evidence.rank < _PROMISING:
+            break
+        step(f"{photo.name}: refining")
+        model, proof = finely(views, photo, best.model, tone, rng)
+        if proof.strength <= 1.02 * best.evidence.strength:
+            break
+        best = Registration(model, proof, "search")
     return best
 
 
 _ATTEMPTS = (
     (_by_features, "ranks"),
     (_from_scanner, "ranks"),
-    (_from_scanner, "percentiles"),
     (_from_aside, "ranks"),
+    (_from_scanner, "percentiles"),
 )

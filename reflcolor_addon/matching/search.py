@@ -16,6 +16,12 @@ from .scan_image import pixel_steps
 FOCALS = (0.5, 0.6, 0.72, 0.866, 1.04, 1.25, 1.5, 1.8, 2.2)
 """Focal lengths that are tried, in lengths of the photo's longer side: fields of view of 90 to 26 degrees."""
 
+ASIDE_FOCALS = (0.55, 0.7, 0.87, 1.1, 1.5)
+"""Those tried from beside the scanner, where there are many places to try."""
+
+_TURNS_DEG = (10, -10, 20, -20, 30, -30, 40, -40, 50, -50)
+# How far a place is moved to find a better one, in distances to what is seen, and how often.
+_MOVES, _MOST_MOVES = (0.1, 0.05), 3
 _LEAST_OVERLAP = 0.2
 # A skyline or an edge of a thing is seen from afar, so range counts for more here than in the tiles.
 _RANGE_WEIGHT = 0.7
@@ -141,6 +147,35 @@ def sharpened(maps, photo, guesses, count):
     return kept
 
 
+def climbed(sphere_at, photo, guess, distance):
+    """Return the best guess reached by moving its place sideways, to and fro, and up and down, while that helps.
+
+    Parameters
+    ----------
+    sphere_at : callable
+        Makes the `SphereMap` of a place.
+    photo : PhotoImage
+    guess : Guess
+    distance : float
+        Metres to what is seen.
+    """
+    for move in _MOVES:
+        for _ in range(_MOST_MOVES):
+            yaw = np.radians(guess.yaw_deg)
+            ahead, aside, up = [np.sin(yaw), np.cos(yaw), 0], [np.cos(yaw), -np.sin(yaw), 0], [0, 0, 0.5]
+            ways = [np.array(way) * sign * move * distance for way in (aside, ahead, up) for sign in (1, -1)]
+            focals = [guess.focal * factor for factor in (0.93, 1.0, 1.07)]
+            tried = [
+                sphere_at(tuple(guess.center + way)).guesses(photo, focals, (guess.pitch_deg,), (guess.roll_deg,), 1)
+                for way in ways
+            ]
+            best = max((found[0] for found in tried if found), key=lambda found: found.score, default=guess)
+            if best.score <= guess.score:
+                break
+            guess = best
+    return guess
+
+
 def _unlike(guess, other):
     turn = abs((guess.yaw_deg - other.yaw_deg + 180) % 360 - 180) + abs(guess.pitch_deg - other.pitch_deg)
     return (
@@ -151,20 +186,26 @@ def _unlike(guess, other):
     )
 
 
+def viewing_distance(scan):
+    """Return the median horizontal distance of what a scan sees, in metres."""
+    points = scan.points[scan.valid]
+    return float(np.median(np.hypot(points[:, 0], points[:, 1])))
+
+
 def viewpoints(scan):
     """Return (x, y, z) places a photo may have been taken from beside the scanner's own, in metres, scanner frame.
 
-    Around what a scan sees, 12, 25 and 45 degrees to either side; around the scanner, if that sees all around.
+    Around what a scan sees, 10 to 50 degrees to either side; around the scanner, if that sees all around.
     """
     points = scan.points[scan.valid]
-    distance = float(np.median(np.hypot(points[:, 0], points[:, 1])))
+    distance = viewing_distance(scan)
     _, horizontal = pixel_steps(scan)
     if scan.full_turn or scan.shape[1] * horizontal > 200:
         return [(x * distance, y * distance, 0.0) for x, y in ((0.3, 0), (-0.3, 0), (0, 0.3), (0, -0.3))]
     middle = np.median(points, axis=0)
     middle[2] = 0.0
     places = []
-    for turn in np.radians([12, -12, 25, -25, 45, -45]):
+    for turn in np.radians(_TURNS_DEG):
         x, y = -middle[:2]
         turned = [np.cos(turn) * x - np.sin(turn) * y, np.sin(turn) * x + np.cos(turn) * y]
         places.append((float(middle[0] + turned[0]), float(middle[1] + turned[1]), 0.0))
