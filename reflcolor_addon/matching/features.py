@@ -4,8 +4,7 @@ import numpy as np
 
 from .models import GridHomography
 
-_RATIOS = (0.8, 0.9)
-_KEPT = 3
+_RATIO = 0.9
 _SIDE = 900
 _LEAST_MATCHES = 12
 _MOST_POINTS = 3000
@@ -13,40 +12,32 @@ VARIANTS = ("gradient", "gray", "contrast", "inverted")
 """Which image of the reflectance is tried in turn; the photo's is the same, but never inverted."""
 
 
-def homographies(images, scan_shape, photo):
-    """Return the `GridHomography` candidates that most matches between the scan's images and a photo support.
+def homographies(grid_image, scan_shape, photo):
+    """Yield `GridHomography` candidates from matches between the scan's image and a photo, variant by variant.
 
     Parameters
     ----------
-    images : sequence of (H, W) float32
-        The scan's reflectance as images of 0..255, each of which covers its whole grid, whatever its pixels' size.
+    grid_image : (H, W) float32
+        The scan's reflectance as an image of 0..255 that covers its whole grid, whatever its pixels' size.
     scan_shape : (rows, columns)
         Of the scan's grid.
     photo : PhotoImage
     """
     import cv2
 
+    own = _sized(grid_image)
     other = _sized(photo.levels[0][0])
+    to_grid = np.diag([scan_shape[1] / own.shape[1], scan_shape[0] / own.shape[0], 1.0])
     to_photo = np.diag([photo.width / other.shape[1], photo.height / other.shape[0], 1.0])
-    described = {variant: _described(_variant(other, variant)) for variant in VARIANTS if variant != "inverted"}
-    described["inverted"] = described["contrast"]
-    supported = []
-    for image in images:
-        own = _sized(image)
-        to_grid = np.diag([scan_shape[1] / own.shape[1], scan_shape[0] / own.shape[0], 1.0])
-        for variant in VARIANTS:
-            for points in _matches(_described(_variant(own, variant)), described[variant]):
-                cv2.setRNGSeed(0)
-                found, inliers = cv2.findHomography(
-                    points[0], points[1], cv2.USAC_MAGSAC, 4.0, maxIters=5000, confidence=0.999
-                )
-                if found is not None and _sane(found, own.shape):
-                    matrix = to_photo @ found @ np.linalg.inv(to_grid)
-                    model = GridHomography(matrix / matrix[2, 2], scan_shape, photo.width, photo.height)
-                    # Of many matches some fit anything.
-                    supported.append((int(inliers.sum()) / np.sqrt(len(points[0])), model))
-    supported.sort(key=lambda pair: -pair[0])
-    return [model for _, model in supported[:_KEPT]]
+    for variant in VARIANTS:
+        points = _matches(_variant(own, variant), _variant(other, "contrast" if variant == "inverted" else variant))
+        if points is None:
+            continue
+        cv2.setRNGSeed(0)
+        found, _ = cv2.findHomography(points[0], points[1], cv2.USAC_MAGSAC, 4.0, maxIters=5000, confidence=0.999)
+        if found is not None and _sane(found, own.shape):
+            matrix = to_photo @ found @ np.linalg.inv(to_grid)
+            yield GridHomography(matrix / matrix[2, 2], scan_shape, photo.width, photo.height)
 
 
 def straight(scan_shape, photo):
@@ -77,33 +68,28 @@ def _variant(image, name):
     return 255 - image if name == "inverted" else image
 
 
-def _described(image):
-    """Points (N, 2) float32 of an image and their SIFT descriptors, in a fixed order."""
-    import cv2
-
-    points, descriptors = cv2.SIFT_create(_MOST_POINTS, contrastThreshold=0.02).detectAndCompute(image, None)
-    if descriptors is None:
-        return np.zeros((0, 2), np.float32), np.zeros((0, 128), np.float32)
-    at = np.array([point.pt for point in points], np.float32)
-    # The detector's threads leave the points in no fixed order.
-    order = np.lexsort((*descriptors.T[:4], at[:, 0], at[:, 1]))
-    return at[order] + 0.5, descriptors[order]
-
-
 def _matches(own, other):
-    """Two (N, 2) float32 arrays of points that may belong together, the best first; strictly chosen, then generously."""
+    """Two (N, 2) float32 arrays of points that may belong together, in a fixed order; None where too few."""
     import cv2
 
-    (own_at, own_described), (other_at, other_described) = own, other
-    if min(len(own_at), len(other_at)) < _LEAST_MATCHES:
-        return
+    detector = cv2.SIFT_create(_MOST_POINTS, contrastThreshold=0.02)
+    described = []
+    for image in (own, other):
+        points, descriptors = detector.detectAndCompute(image, None)
+        if descriptors is None or len(points) < _LEAST_MATCHES:
+            return None
+        at = np.array([point.pt for point in points], np.float32)
+        # The detector's threads leave the points in no fixed order.
+        order = np.lexsort((*descriptors.T[:4], at[:, 0], at[:, 1]))
+        described.append((at[order] + 0.5, descriptors[order]))
+    (own_at, own_described), (other_at, other_described) = described
     pairs = cv2.BFMatcher(cv2.NORM_L2).knnMatch(own_described, other_described, k=2)
-    for ratio in _RATIOS:
-        chosen = [pair[0] for pair in pairs if len(pair) == 2 and pair[0].distance < ratio * pair[1].distance]
-        if len(chosen) >= _LEAST_MATCHES:
-            # MAGSAC tries the first ones first.
-            chosen.sort(key=lambda pair: (pair.distance, pair.queryIdx))
-            yield own_at[[pair.queryIdx for pair in chosen]], other_at[[pair.trainIdx for pair in chosen]]
+    pairs = [pair[0] for pair in pairs if len(pair) == 2 and pair[0].distance < _RATIO * pair[1].distance]
+    if len(pairs) < _LEAST_MATCHES:
+        return None
+    # MAGSAC weighs the first ones first.
+    pairs.sort(key=lambda pair: (pair.distance, pair.queryIdx))
+    return own_at[[pair.queryIdx for pair in pairs]], other_at[[pair.trainIdx for pair in pairs]]
 
 
 def _sane(matrix, shape):

@@ -159,14 +159,15 @@ def _by_features(views, photo, tone, step):
     rng = np.random.default_rng(0)
     best = Registration(None, NO_EVIDENCE, "features")
     scan = views.scan
-    images = [views.tone(other) for other in TONES]
+    images = [views.tone(tone)]
     vertical, horizontal = pixel_steps(scan)
     if not 0.8 < vertical / horizontal < 1.25:
         images.append(views.image(tone, 0.0).reflectance)
 
     def candidates():
         yield features.straight(scan.shape, photo)
-        yield from features.homographies(images, scan.shape, photo)
+        for image in images:
+            yield from features.homographies(image, scan.shape, photo)
 
     for model in candidates():
         step(f"{photo.name}: matching features")
