@@ -7,6 +7,7 @@ larger than 4 megapixels.
 
 import argparse
 import json
+import os
 import platform
 import statistics
 import subprocess
@@ -85,14 +86,31 @@ def one_field(rounds):
 
 
 def threads(rounds):
-    """Exact mode by one and two threads."""
+    """Exact mode by one and two threads: by the clock, and how much more work two make."""
     images = cases.case("doria")
     pixels = cases.spread_seeds(images[2], 200)
     graph, colors = kernel.Graph(*images), cases.seed_colors(pixels)
     functions = {n: partial(kernel.blend_all, graph, pixels, colors, ALPHA, threads=n) for n in (1, 2)}
-    found = medians(functions, rounds, time.perf_counter)
-    head("Exact, 200 seeds, doria, 760 x 1135 (seconds by the clock)", "1 thread", "2 threads", "ratio")
-    row(f"{found[1]:.2f}", f"{found[2]:.2f}", f"{found[1] / found[2]:.2f}")
+    clock, work = ({n: [] for n in functions} for _ in range(2))
+    for _ in range(rounds):
+        for n, function in functions.items():
+            start = time.perf_counter(), time.process_time()
+            function()
+            clock[n].append(time.perf_counter() - start[0])
+            work[n].append(time.process_time() - start[1])
+    one, two = (statistics.median(clock[n]) for n in (1, 2))
+    busy = statistics.median(b / a for a, b in zip(clock[2], work[2], strict=True))
+    more = statistics.median(work[2]) / statistics.median(work[1])
+    head(
+        f"Exact, 200 seeds, doria, 760 x 1135 (by the clock; {load()} other programs ran)",
+        *("1 thread, s", "2 threads, s", "ratio", "processors that 2 threads got", "work of 2 threads to 1"),
+    )
+    row(f"{one:.2f}", f"{two:.2f}", f"{one / two:.2f}", f"{busy:.2f}", f"{more:.2f}")
+
+
+def load():
+    """About how many programs ran during the last minute besides this one."""
+    return f"{max(os.getloadavg()[0] - 1, 0):.0f}" if hasattr(os, "getloadavg") else "some"
 
 
 def incremental(rounds):
@@ -149,19 +167,29 @@ def memory():
 
 def growth(quick, rounds):
     """Time per pixel from 0.1 to 40 megapixels."""
+    sides = (316, 1000, 2000) if quick else (316, 1000, 2000, 3162, 6325)
+    # As many seeds per pixel as 1,000 are on the paper's size, and 1,000.
+    per_pixel = 1000 / np.prod(cases.PAPER_SIZE)
+    wanted = [(side, seeds) for side in sides for seeds in (round(side * side * per_pixel), 1000)]
+    runs = {case: [] for case in wanted}
+    for _ in range(rounds):
+        for side, seeds in wanted:
+            runs[side, seeds].append(apart("nearest", "tiled", side, side, seeds, 8))
     head(
-        "Growth, the tiled image, K = 8, one thread (time per valid pixel; peak memory per pixel)",
-        *("megapixels", "seeds", "us per pixel", "bytes per pixel", "1,000 seeds: us per pixel", "bytes per pixel"),
+        "Growth, the tiled image, K = 8, one thread, from images to chrominance",
+        *("megapixels", "seeds", "us per valid pixel", "to 1 megapixel", "bytes per pixel"),
     )
-    for side in (316, 1000, 2000) if quick else (316, 1000, 2000, 3162, 6325):
-        cells = []
-        for seeds in (round(side * side * 0.52 / 450), 1000):
-            runs = [apart("nearest", "tiled", side, side, seeds, 8) for _ in range(1 if side > 2000 else rounds)]
-            seconds = statistics.median(run["seconds"] for run in runs)
-            cells.append((runs[0]["seeds"], 1e6 * seconds / runs[0]["valid"], runs[0]["bytes"] / runs[0]["pixels"]))
-        (seeds, *dense), (_, *fixed) = cells
-        shown = [f"{value:.2f}" if i % 2 == 0 else f"{value:.0f}" for i, value in enumerate((*dense, *fixed))]
-        row(f"{side * side / 1e6:.1f}", seeds, *shown)
+    seconds = {case: statistics.median(run["seconds"] / run["valid"] for run in found) for case, found in runs.items()}
+    for number, (side, seeds) in enumerate(wanted):
+        ratio = seconds[side, seeds] / seconds[wanted[2 + number % 2]]
+        first = runs[side, seeds][0]
+        row(
+            f"{side * side / 1e6:.1f}",
+            first["seeds"],
+            f"{1e6 * seconds[side, seeds]:.2f}",
+            f"{ratio:.2f}",
+            f"{first['bytes'] / first['pixels']:.0f}",
+        )
 
 
 def levin():

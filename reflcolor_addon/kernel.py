@@ -35,6 +35,8 @@ ABI_VERSION = 1
 MAX_NEAREST = 1024
 
 _OK, _CANCELLED, _MEMORY = 0, 1, 2
+# Windows has no other anonymous memory; elsewhere, shared is the default and costs more.
+_PRIVATE = {"flags": mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS} if hasattr(mmap, "MAP_PRIVATE") else {}
 # Blended between two looks at the wish to cancel.
 _PIXELS_AT_ONCE = 1 << 17
 _NO_MEMORY = "the geodesic kernel ran out of memory: use a larger stride or fewer nearest seeds"
@@ -224,7 +226,7 @@ class Graph:
         # Straight from the system: page-aligned, so that a pixel's values lie in as few cache lines as they can, and in
         # small pages, which a propagation fills faster than the huge ones that NumPy asks for.
         try:
-            plane = np.frombuffer(mmap.mmap(-1, self._y.size * depth * 4), np.float32)
+            plane = np.frombuffer(mmap.mmap(-1, self._y.size * depth * 4, **_PRIVATE), np.float32)
         except (OSError, OverflowError) as error:
             raise MemoryError(_NO_MEMORY) from error
         grid = plane[: (height + 2) * (width + 2) * depth].reshape(height + 2, width + 2, depth)[1:-1, 1:-1]
