@@ -21,7 +21,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_seeds(cls, context)
+        return polls.has_colored_seeds(cls, context)
 
     def prepare(self, context):
         obj = polls.scan_object(context)

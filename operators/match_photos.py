@@ -35,7 +35,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
             raise SeedsError("a photo of the list cannot be read; remove it and load it again")
         scan, settings = scan_of(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
         numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}
-        hand = renamed(seeds_of(obj, by_hand=True), numbered)
+        hand = renamed(seeds_of(obj, wanted=lambda seed: seed.reason == "hand"), numbered)
 
         def work(progress, cancelled):
             matching = match_photos(scan, photos, settings, hand=hand, progress=progress, cancelled=cancelled)

@@ -21,6 +21,16 @@ def has_seeds(cls, context):
     return True
 
 
+def has_colored_seeds(cls, context):
+    """A scan's object is active and a seed of it has a color."""
+    if not has_seeds(cls, context):
+        return False
+    if not any(seed.has_color for seed in scan_object(context).reflcolor.seeds):
+        cls.poll_message_set("Give a seed its color first")
+        return False
+    return True
+
+
 def has_colors(cls, context):
     """A scan's object is active and was colorized."""
     if not has_scan(cls, context):

@@ -2,6 +2,7 @@
 
 import bpy
 from bpy.props import (
+    BoolProperty,
     CollectionProperty,
     EnumProperty,
     FloatProperty,
@@ -14,14 +15,29 @@ from bpy.props import (
 from ..reflcolor_addon import settings
 
 
+def _color_was_given(seed, _context):
+    seed.has_color = True
+
+
 class ReflcolorSeed(bpy.types.PropertyGroup):
     """A pixel of the scan whose color is known"""
 
     row: IntProperty(name="Row", description="Row of the scan's grid, 0 at the top", min=0)
     col: IntProperty(name="Column", description="Column of the scan's grid, 0 at the left", min=0)
     color: FloatVectorProperty(
-        name="Color", description="Color of the scan at this pixel", subtype="COLOR_GAMMA", min=0, max=1, size=3
+        name="Color",
+        description="Color of the scan at this pixel",
+        subtype="COLOR_GAMMA",
+        min=0,
+        max=1,
+        size=3,
+        update=_color_was_given,
     )
+    has_color: BoolProperty(
+        name="Has a Color", description="A seed whose color was not picked yet colors nothing", default=True
+    )
+    select: BoolProperty(name="Selected", description="Whether the seed is selected in the Image Editors")
+    locked: BoolProperty(name="Locked", description="Keep the seed when the photos are matched again")
     photo: PointerProperty(name="Photo", description="Photo that the color was taken from", type=bpy.types.Image)
     photo_xy: FloatVectorProperty(
         name="Point", description="Place in the photo, in pixels from its top left corner", size=2

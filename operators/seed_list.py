@@ -38,9 +38,9 @@ class SeedChoice:
         return index
 
 
-def seeds_of(obj, *, by_hand=False):
-    """Return the object's seeds as the core's Seeds; with ``by_hand``, only those that a person picked."""
-    seeds = [seed for seed in obj.reflcolor.seeds if not by_hand or seed.reason == "hand"]
+def seeds_of(obj, *, wanted=lambda seed: True):
+    """Return the object's seeds that have a color as the core's Seeds; only those for which ``wanted(seed)`` holds."""
+    seeds = [seed for seed in obj.reflcolor.seeds if seed.has_color and wanted(seed)]
     return Seeds(
         rows=np.array([seed.row for seed in seeds], np.int64),
         cols=np.array([seed.col for seed in seeds], np.int64),

@@ -1,16 +1,19 @@
-"""What the extension shows: the steps in the 3D View's sidebar."""
+"""What the extension shows: the steps in the sidebars of the 3D View and the Image Editor."""
 
 import bpy
 
-from . import sidebar
+from . import colorize, images, scan, seeds
 
+# In the order that they are drawn in.
+_MODULES = (scan, images, seeds, colorize)
 _registered = []
 
 
 def register():
-    for cls in sidebar.classes:
-        bpy.utils.register_class(cls)
-        _registered.append(cls)
+    for module in _MODULES:
+        for cls in module.classes:
+            bpy.utils.register_class(cls)
+            _registered.append(cls)
 
 
 def unregister():

@@ -1,0 +1,67 @@
+"""Step 4: colorize, and step 5: compare with the truth."""
+
+from ..operators import jobs
+from ..reflcolor_addon.settings import PRESETS
+from .step import Step, in_both_editors, in_view
+
+
+class Colorize(Step):
+    """Spread the colors"""
+
+    bl_label = "4. Colorize"
+
+    def draw_step(self, context, layout, obj):
+        settings = context.scene.reflcolor
+        row = layout.row(align=True)
+        for preset in PRESETS:
+            row.operator("reflcolor.apply_preset", text=preset).preset = preset
+        column = layout.column()
+        column.prop(settings, "alpha")
+        column.prop(settings, "beta")
+        job = jobs.running()
+        if job is not None:
+            layout.progress(factor=job.fraction, text="Cancelling" if job.stopping else job.name)
+            layout.label(text="Press ESC to cancel", icon="EVENT_ESC")
+            return
+        row = layout.row()
+        row.scale_y = 1.5
+        row.operator("reflcolor.colorize", icon="COLOR")
+        if obj is None:
+            layout.label(text="Needs a scan", icon="INFO")
+        elif not obj.reflcolor.seeds:
+            layout.label(text="Needs seeds", icon="INFO")
+
+
+class Advanced(Step):
+    """The other settings of the colorization"""
+
+    bl_label = "Advanced"
+    bl_parent_id = "REFLCOLOR_PT_colorize"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_step(self, context, layout, _obj):
+        settings = context.scene.reflcolor
+        layout.prop(settings, "color_space")
+        layout.row().prop(settings, "neighbors", expand=True)
+        layout.prop(settings, "blend")
+        if settings.blend == "nearest":
+            layout.prop(settings, "nearest")
+        layout.prop(settings, "smoothing")
+        layout.prop(settings, "kriging")
+
+
+class Evaluate(Step):
+    """Compare the colors with true ones"""
+
+    bl_label = "5. Evaluate"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_step(self, context, layout, obj):
+        if obj is None:
+            layout.label(text="Needs a scan", icon="INFO")
+            return
+        layout.prop(obj.reflcolor, "truth_image")
+        layout.operator("reflcolor.evaluate", icon="VIEWZOOM")
+
+
+classes = (*in_both_editors(Colorize), *in_both_editors(Advanced), in_view(Evaluate))

@@ -1,0 +1,77 @@
+"""Step 3: the seeds, picked by hand or found in photos."""
+
+import bpy
+
+from .step import Step, in_both_editors
+
+
+class REFLCOLOR_UL_seeds(bpy.types.UIList):
+    """Seeds of a scan: color, number, row and column"""
+
+    def draw_item(self, _context, layout, _data, seed, _icon, _active_data, _active_property, index):
+        split = layout.split(factor=0.3)
+        split.prop(seed, "color", text="")
+        row = split.row()
+        row.label(text=f"{index + 1}:  {seed.row}, {seed.col}", translate=False)
+        if seed.photo:
+            row.label(text="", icon="IMAGE_DATA")
+
+
+class Seeds(Step):
+    """The list of seeds"""
+
+    bl_label = "3. Seeds"
+
+    def draw_step(self, context, layout, obj):
+        if obj is None:
+            layout.label(text="Needs a scan", icon="INFO")
+            return
+        state = obj.reflcolor
+        row = layout.row()
+        row.template_list("REFLCOLOR_UL_seeds", "", state, "seeds", state, "active_seed", rows=4)
+        buttons = row.column(align=True)
+        buttons.operator("reflcolor.add_seed", text="", icon="ADD")
+        buttons.operator("reflcolor.remove_seed", text="", icon="REMOVE")
+        buttons.separator()
+        buttons.operator("reflcolor.move_seed", text="", icon="ARROW_LEFTRIGHT")
+        buttons.operator("reflcolor.clear_seeds", text="", icon="TRASH")
+        row = layout.row(align=True)
+        row.operator("reflcolor.load_seeds", icon="FILE_FOLDER")
+        row.operator("reflcolor.save_seeds", icon="FILE_TICK")
+
+
+class Match(Step):
+    """Find seeds in the photos"""
+
+    bl_label = "Find in Photos"
+    bl_parent_id = "REFLCOLOR_PT_seeds"
+
+    def draw_step(self, context, layout, obj):
+        settings = context.scene.reflcolor
+        layout.prop(settings, "matching")
+        layout.operator("reflcolor.match_photos", icon="VIEWZOOM")
+        if obj is not None and settings.photos:
+            pairs = sum(seed.reason == "hand" and seed.photo is not None for seed in obj.reflcolor.seeds)
+            column = layout.column(align=True)
+            column.label(text="Not recognized? Pick 4 to 6 seeds", icon="INFO")
+            column.label(text=f"with a photo point ({pairs} so far)", icon="BLANK1")
+
+
+class Descriptors(Step):
+    """How the images are divided and described"""
+
+    bl_label = "Superpixels and Descriptors"
+    bl_parent_id = "REFLCOLOR_PT_match"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_step(self, context, layout, _obj):
+        for names in (
+            ("slic_segments", "slic_compactness", "slic_sigma"),
+            ("hog_cell", "hog_block", "hog_orientations", "hog_window"),
+        ):
+            column = layout.column(align=True)
+            for name in names:
+                column.prop(context.scene.reflcolor, name)
+
+
+classes = (REFLCOLOR_UL_seeds, *in_both_editors(Seeds), *in_both_editors(Match), *in_both_editors(Descriptors))

@@ -1,0 +1,35 @@
+"""What all panels have in common: the tab they are in, and the editors whose sidebar they are shown in."""
+
+import bpy
+
+from ..operators import polls
+
+
+class Step:
+    """One step from a scan to its colors; a subclass gives ``draw_step(context, layout, obj)``."""
+
+    bl_region_type = "UI"
+    bl_category = "Reflectance"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        self.draw_step(context, layout, polls.scan_object(context))
+
+
+def in_view(step):
+    """Return the step as a panel of the 3D View."""
+    return _panel(step, "VIEW_3D", "")
+
+
+def in_both_editors(step):
+    """Return the step as panels of the 3D View and of the Image Editor."""
+    return _panel(step, "VIEW_3D", ""), _panel(step, "IMAGE_EDITOR", "_image")
+
+
+def _panel(step, space, suffix):
+    members = {"bl_space_type": space, "__doc__": step.__doc__, "__module__": step.__module__}
+    if parent := getattr(step, "bl_parent_id", None):
+        members["bl_parent_id"] = parent + suffix
+    return type(f"REFLCOLOR_PT_{step.__name__.lower()}{suffix}", (step, bpy.types.Panel), members)
