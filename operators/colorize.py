@@ -3,11 +3,11 @@
 import bpy
 
 from ..reflcolor_addon.colorize import colorize
-from . import polls
+from . import live_update, polls
 from .images import write_image
 from .jobs import JobOperator
 from .properties import COLORIZE_NAMES, ColorizeSettings, core_settings
-from .scan_object import COLORIZED, add_colors, grid_indices, scan_of, show_colors
+from .scan_object import COLORIZED, add_colors, grid_indices, scan_reader, show_colors
 from .seed_list import seeds_of
 
 
@@ -27,9 +27,14 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
         obj = polls.scan_object(context)
         # A name, not the object: it may be gone, or be another one after an undo, when the work is done.
         self._object_name = obj.name
-        scan, seeds = scan_of(obj), seeds_of(obj)
         settings = core_settings(self, context.scene.reflcolor, COLORIZE_NAMES)
-        return lambda progress, cancelled: colorize(scan, seeds, settings, progress=progress, cancelled=cancelled)
+        previewed = live_update.finished(obj, settings)
+        if previewed is not None:
+            return lambda progress, cancelled: previewed
+        read_scan, seeds = scan_reader(obj), seeds_of(obj)
+        return lambda progress, cancelled: colorize(
+            read_scan(), seeds, settings, progress=progress, cancelled=cancelled
+        )
 
     def finish(self, context, result):
         obj = bpy.data.objects.get(self._object_name)
