@@ -6,9 +6,11 @@ from . import (
     add_seed,
     apply_preset,
     clear_seeds,
+    close_seed_picking,
     colorize,
     command,
     delete_seeds,
+    drag,
     drag_seeds,
     draw_seeds,
     drop_color,
@@ -33,6 +35,7 @@ from . import (
     remove_photo,
     remove_seed,
     save_seeds,
+    seed_picking,
     select_all_seeds,
     select_region,
     select_seed,
@@ -71,7 +74,10 @@ _MODULES = (
     drag_seeds,
     stroke_seeds,
     pick,
+    drag,
     pick_in_view,
+    seed_picking,
+    close_seed_picking,
 )
 # What draws, listens or stands in a toolbar, with register() and unregister() of its own.
 _SERVICES = (draw_seeds, live_update, tools)
