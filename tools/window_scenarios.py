@@ -19,9 +19,7 @@ LIMIT_S = 180
 LOG_LINES = 40
 
 # What Blender, Python and the operators' reports write where something went wrong.
-_ERROR = re.compile(
-    r"Traceback \(most recent call last\)|^\s*[\w.]*(Error|Exception|\wWarning): |\| ERROR |^Error: "
-)
+_ERROR = re.compile(r"Traceback \(most recent call last\)|^\s*[\w.]*(Error|Exception|\wWarning): |\| ERROR |^Error: ")
 _MARK = re.compile(r"^window-test: (begin|end) (\w+)$")
 
 
