@@ -11,7 +11,6 @@ from . import (
     command,
     delete_seeds,
     drag,
-    drag_seeds,
     draw_seeds,
     drop_color,
     evaluate,
@@ -40,7 +39,6 @@ from . import (
     select_region,
     select_seed,
     simulate,
-    stroke_seeds,
     tools,
 )
 
@@ -71,8 +69,6 @@ _MODULES = (
     select_region,
     delete_seeds,
     lock_seeds,
-    drag_seeds,
-    stroke_seeds,
     pick,
     drag,
     pick_in_view,
