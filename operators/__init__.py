@@ -20,6 +20,7 @@ from . import (
     remove_photo,
     remove_seed,
     save_seeds,
+    show_look,
     simulate,
 )
 
@@ -39,6 +40,7 @@ _MODULES = (
     apply_preset,
     colorize,
     evaluate,
+    show_look,
     simulate,
 )
 _undo = []

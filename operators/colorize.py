@@ -4,10 +4,10 @@ import bpy
 
 from ..reflcolor_addon.colorize import colorize
 from . import polls
-from .images import write_image
+from .colorized_object import show_colorization
 from .jobs import JobOperator
 from .properties import COLORIZE_NAMES, ColorizeSettings, core_settings
-from .scan_object import COLORIZED, add_colors, grid_indices, scan_of, show_colors
+from .scan_object import scan_of
 from .seed_list import seeds_of
 
 
@@ -40,15 +40,6 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
         for warning in result.warnings:
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, f"Colorized {obj.name} from {len(result.seeds)} seeds")
-
-
-def show_colorization(obj, colorization):
-    """Write a Colorization onto its object: color attribute, material and image."""
-    add_colors(obj, COLORIZED, colorization.rgb[grid_indices(obj)])
-    show_colors(obj, COLORIZED)
-    state = obj.reflcolor
-    name = f"{obj.name} {COLORIZED}"
-    state.colorized_image = write_image(state.colorized_image, name, colorization.rgb, is_data=False)
 
 
 classes = (REFLCOLOR_OT_colorize,)

@@ -9,9 +9,9 @@ from ..reflcolor_addon.evaluation import error_map, evaluate
 from . import polls
 from .images import read_image
 from .jobs import JobOperator
-from .scan_object import COLORIZED, SCANNED, add_values, colors_of, grid_indices
+from .looks import refresh_look
+from .scan_object import COLORIZED, ERROR, SCANNED, add_values, colors_of, grid_indices
 
-ERROR = "error"
 # Where no true color is known.
 UNKNOWN = -1.0
 
@@ -61,6 +61,7 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
             self.report({"WARNING"}, f"{self._object_name} is gone; its errors were dropped")
             return
         add_values(obj, ERROR, np.nan_to_num(errors, nan=UNKNOWN))
+        refresh_look(obj)
         mean, percentile = (figures["color_alone"][f"ciede2000_{name}"] for name in ("mean", "p95"))
         self.report(
             {"INFO"},

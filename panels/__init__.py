@@ -2,10 +2,10 @@
 
 import bpy
 
-from . import colorize, images, scan, seeds
+from . import colorize, images, legend, looking, scan, seeds
 
 # In the order that they are drawn in.
-_MODULES = (scan, images, seeds, colorize)
+_MODULES = (scan, looking, images, seeds, colorize)
 _registered = []
 
 
@@ -14,8 +14,10 @@ def register():
         for cls in module.classes:
             bpy.utils.register_class(cls)
             _registered.append(cls)
+    legend.register()
 
 
 def unregister():
+    legend.unregister()
     while _registered:
         bpy.utils.unregister_class(_registered.pop())
