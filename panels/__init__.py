@@ -5,7 +5,7 @@ import bpy
 from . import colorize, images, legend, looking, scan, seeds
 
 # In the order that they are drawn in.
-_MODULES = (scan, looking, images, seeds, colorize)
+_MODULES = (scan, images, seeds, colorize, looking)
 _registered = []
 
 

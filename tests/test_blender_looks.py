@@ -133,10 +133,10 @@ def test_there_is_one_map_at_most(colorized):
 @pytest.mark.parametrize(
     ("look", "message"),
     [
-        ("colorized", "Colorize the scan first"),
-        ("confidence", "Colorize the scan first"),
-        ("nearest_seed", "Colorize the scan first"),
-        ("error", "Evaluate the colors first"),
+        ("colorized", "Colorize first"),
+        ("confidence", "Colorize first"),
+        ("nearest_seed", "Colorize first"),
+        ("error", "Evaluate first"),
     ],
 )
 def test_what_cannot_be_shown_says_what_to_do(imported, look, message):
