@@ -8,6 +8,7 @@ from . import (
     clear_seeds,
     colorize,
     command,
+    copy_provenance,
     evaluate,
     import_scan,
     jobs,
@@ -41,6 +42,7 @@ _MODULES = (
     colorize,
     evaluate,
     show_look,
+    copy_provenance,
     simulate,
 )
 _undo = []

@@ -7,6 +7,7 @@ from . import polls
 from .colorized_object import show_colorization
 from .jobs import JobOperator
 from .properties import COLORIZE_NAMES, ColorizeSettings, core_settings
+from .provenance import record_provenance, window_report
 from .scan_object import scan_of
 from .seed_list import seeds_of
 
@@ -29,6 +30,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
         self._object_name = obj.name
         scan, seeds = scan_of(obj), seeds_of(obj)
         settings = core_settings(self, context.scene.reflcolor, COLORIZE_NAMES)
+        self._seeds, self._settings = seeds, settings
         return lambda progress, cancelled: colorize(scan, seeds, settings, progress=progress, cancelled=cancelled)
 
     def finish(self, context, result):
@@ -37,6 +39,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
             self.report({"WARNING"}, f"{self._object_name} is gone; its colors were dropped")
             return
         show_colorization(obj, result)
+        record_provenance(obj, window_report(obj, result, self._settings, self._seeds))
         for warning in result.warnings:
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, f"Colorized {obj.name} from {len(result.seeds)} seeds")

@@ -7,7 +7,9 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..reflcolor_addon.image_files import IMAGE_SUFFIXES, read_image
+from ..reflcolor_addon.report import input_entry
 from .images import show_image, write_image
+from .provenance import record_photo
 from .reports import reported
 
 
@@ -33,11 +35,13 @@ def add_photo(context, path):
 
     Raises
     ------
-    ImageError
+    ReflcolorError
         If it cannot be read.
     """
     # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
-    image = write_image(None, path.name, read_image(path), is_data=False)
+    pixels, entry = read_image(path), input_entry("photo", path)
+    image = write_image(None, path.name, pixels, is_data=False)
+    record_photo(image, entry)
     settings = context.scene.reflcolor
     settings.photos.add().image = image
     settings.active_photo = len(settings.photos) - 1

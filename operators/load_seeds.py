@@ -9,6 +9,7 @@ from bpy_extras.io_utils import ImportHelper
 from ..reflcolor_addon.seeds import Seeds, find_photo
 from . import polls
 from .load_photo import add_photo
+from .provenance import record_seeds_file
 from .reports import reported
 from .scan_object import scan_of
 from .seed_list import append_seeds
@@ -40,6 +41,7 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
         if self.replace:
             obj.reflcolor.seeds.clear()
         append_seeds(obj, seeds)
+        record_seeds_file(obj, self.filepath, others=not self.replace)
         for warning in warnings:
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, f"Loaded {len(seeds)} seeds")

@@ -10,6 +10,7 @@ from . import polls
 from .images import read_pixels, write_image
 from .jobs import JobOperator
 from .properties import MATCH_NAMES, MatchSettings, core_settings
+from .provenance import record_matching
 from .scan_object import scan_of
 from .seed_list import append_seeds, seeds_of
 
@@ -34,6 +35,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         if any(pixels is None for pixels in photos):
             raise SeedsError("a photo of the list cannot be read; remove it and load it again")
         scan, settings = scan_of(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
+        self._settings = settings
         numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}
         hand = renamed(seeds_of(obj, wanted=lambda seed: seed.reason == "hand"), numbered)
 
@@ -52,6 +54,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         names = {f"photo {number}": name for number, name in enumerate(self._photo_names, 1)}
         obj.reflcolor.seeds.clear()
         append_seeds(obj, renamed(matching.seeds, names))
+        record_matching(obj, matching, names, self._settings, MATCH_NAMES)
         state = obj.reflcolor
         state.matches_image = write_image(state.matches_image, f"{obj.name} Matches", picture, is_data=False)
         notes = {names[photo.name]: photo.note for photo in matching.photos}

@@ -1,6 +1,5 @@
 """The files that only Blender writes: .blend, .glb, .ply and a rendered picture."""
 
-import json
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from io import StringIO
 
@@ -10,11 +9,10 @@ from ..reflcolor_addon.atomic import written_atomically
 from ..reflcolor_addon.errors import OutputError
 from ..reflcolor_addon.grid_mesh import grid_mesh
 from .colorized_object import show_colorization
+from .provenance import record_provenance
 from .render import add_camera_and_lights, render
 from .scan_object import CONFIDENCE, NEAREST_SEED, add_scan_object
 from .seed_list import append_seeds
-
-PROVENANCE = "reflcolor_provenance"
 
 
 def write_results(scan, colorization, paths, picture, progress, provenance):
@@ -43,7 +41,7 @@ def write_results(scan, colorization, paths, picture, progress, provenance):
     obj = add_scan_object(context, scan, grid_mesh(scan))
     append_seeds(obj, colorization.seeds)
     show_colorization(obj, colorization)
-    obj[PROVENANCE] = json.dumps(provenance)
+    record_provenance(obj, provenance)
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
     if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
         add_camera_and_lights(context, obj)

@@ -2,10 +2,10 @@
 
 import bpy
 
-from . import colorize, images, legend, looking, scan, seeds
+from . import colorize, images, legend, looking, provenance, scan, seeds
 
 # In the order that they are drawn in.
-_MODULES = (scan, images, seeds, colorize, looking)
+_MODULES = (scan, images, seeds, colorize, looking, provenance)
 _registered = []
 
 
