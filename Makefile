@@ -1,6 +1,7 @@
 # make setup   makes .venv: a Python 3.13 or 3.11, the bpy that fits it, and all that requirements/dev.txt pins
 # make demo    sets up, builds, and colorizes the example in examples/cones; the results are in demo/
 # make test    sets up, checks the style, builds the zip and tests it (in CI with every Python that is there)
+# make test-window  tests in the window of a real Blender: BLENDER=/path/to/blender names one
 # make build   the extension's zip for this machine and this Python, in dist/
 # make dist    the zip to hand out: for this platform, with the wheels of every Python that a Blender runs
 # make dist-all  the same for every platform that has the wheels
@@ -16,7 +17,7 @@ PYTHON ?=
 FOR_PYTHON ?=
 RUN = $(VENV)/bin/python
 
-.PHONY: help setup kernel build dist dist-all demo bench lint format test test-one test-all lock clean distclean
+.PHONY: help setup kernel build dist dist-all demo bench lint format test test-one test-all test-window lock clean distclean
 
 help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
@@ -65,6 +66,11 @@ test-one: lint build
 # Two LTS Blenders, two Pythons: one after the other, each in its own environment, whichever are there.
 test-all:
 	@tools/test_all.sh
+
+# -k WORDS in SCENARIOS chooses some of them (tests/window/README.md).
+test-window: setup kernel
+	@$(RUN) tools/window_blender.py
+	@$(RUN) -m pytest tests/window/run_scenarios.py $(SCENARIOS)
 
 lock:
 	@tools/lock.sh

@@ -9,20 +9,38 @@ from . import (
     colorize,
     command,
     copy_provenance,
+    delete_seeds,
+    drag_seeds,
+    draw_seeds,
+    drop_color,
     evaluate,
     import_scan,
     jobs,
+    keep_gray,
+    leave_preview,
+    live_update,
     load_photo,
     load_seeds,
+    lock_seeds,
     match_photos,
     move_seed,
     open_reflectance,
+    pick,
+    pick_color,
+    pick_in_view,
+    place_seed,
+    pointer,
     properties,
     remove_photo,
     remove_seed,
     save_seeds,
+    select_all_seeds,
+    select_region,
+    select_seed,
     show_look,
     simulate,
+    stroke_seeds,
+    tools,
 )
 
 _MODULES = (
@@ -44,7 +62,23 @@ _MODULES = (
     show_look,
     copy_provenance,
     simulate,
+    leave_preview,
+    place_seed,
+    pick_color,
+    keep_gray,
+    drop_color,
+    select_seed,
+    select_all_seeds,
+    select_region,
+    delete_seeds,
+    lock_seeds,
+    drag_seeds,
+    stroke_seeds,
+    pick,
+    pick_in_view,
 )
+# What draws, listens or stands in a toolbar, with register() and unregister() of its own.
+_SERVICES = (draw_seeds, live_update, tools)
 _undo = []
 
 
@@ -53,17 +87,25 @@ def register():
         for cls in module.classes:
             bpy.utils.register_class(cls)
             _undo.append((bpy.utils.unregister_class, cls))
-    for owner, cls in ((bpy.types.Object, properties.ReflcolorScan), (bpy.types.Scene, properties.ReflcolorSettings)):
+    for owner, cls in (
+        (bpy.types.Object, properties.ReflcolorScan),
+        (bpy.types.Scene, properties.ReflcolorSettings),
+        (bpy.types.WindowManager, leave_preview.ReflcolorWindow),
+    ):
         owner.reflcolor = bpy.props.PointerProperty(type=cls)
         _undo.append((_delete_property, owner))
     for menu, module in ((bpy.types.TOPBAR_MT_file_import, import_scan), (bpy.types.TOPBAR_MT_file_export, simulate)):
         menu.append(module.draw_menu)
         _undo.append((menu.remove, module.draw_menu))
+    for service in _SERVICES:
+        service.register()
+        _undo.append((_unregister, service))
     _undo.append((bpy.utils.unregister_cli_command, bpy.utils.register_cli_command("reflcolor", command.run)))
 
 
 def unregister():
     jobs.stop_all()
+    pointer.stop_all()
     while _undo:
         take_off, thing = _undo.pop()
         take_off(thing)
@@ -71,3 +113,7 @@ def unregister():
 
 def _delete_property(owner):
     del owner.reflcolor
+
+
+def _unregister(service):
+    service.unregister()

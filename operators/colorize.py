@@ -3,12 +3,12 @@
 import bpy
 
 from ..reflcolor_addon.colorize import colorize
-from . import polls
+from . import live_update, polls
 from .colorized_object import show_colorization
 from .jobs import JobOperator
 from .properties import COLORIZE_NAMES, ColorizeSettings, core_settings
 from .provenance import record_provenance, window_report
-from .scan_object import scan_of
+from .scan_object import scan_reader
 from .seed_list import seeds_of
 
 
@@ -28,10 +28,16 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
         obj = polls.scan_object(context)
         # A name, not the object: it may be gone, or be another one after an undo, when the work is done.
         self._object_name = obj.name
-        scan, seeds = scan_of(obj), seeds_of(obj)
         settings = core_settings(self, context.scene.reflcolor, COLORIZE_NAMES)
+        seeds = seeds_of(obj)
         self._seeds, self._settings = seeds, settings
-        return lambda progress, cancelled: colorize(scan, seeds, settings, progress=progress, cancelled=cancelled)
+        previewed = live_update.finished(obj, settings)
+        if previewed is not None:
+            return lambda progress, cancelled: previewed
+        read_scan = scan_reader(obj)
+        return lambda progress, cancelled: colorize(
+            read_scan(), seeds, settings, progress=progress, cancelled=cancelled
+        )
 
     def finish(self, context, result):
         obj = bpy.data.objects.get(self._object_name)

@@ -42,10 +42,18 @@ def add_photo(context, path):
     pixels, entry = read_image(path), input_entry("photo", path)
     image = write_image(None, path.name, pixels, is_data=False)
     record_photo(image, entry)
-    settings = context.scene.reflcolor
-    settings.photos.add().image = image
-    settings.active_photo = len(settings.photos) - 1
+    list_photo(context, image)
     return image
+
+
+def list_photo(context, image):
+    """Put an image on the scene's list of photos, where it is not yet, and select it there."""
+    settings = context.scene.reflcolor
+    listed = [photo.image for photo in settings.photos]
+    if image not in listed:
+        settings.photos.add().image = image
+        listed.append(image)
+    settings.active_photo = listed.index(image)
 
 
 classes = (REFLCOLOR_OT_load_photo,)

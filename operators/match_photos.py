@@ -11,7 +11,7 @@ from .images import read_pixels, write_image
 from .jobs import JobOperator
 from .properties import MATCH_NAMES, MatchSettings, core_settings
 from .provenance import record_matching
-from .scan_object import scan_of
+from .scan_object import scan_reader
 from .seed_list import append_seeds, seeds_of
 
 
@@ -34,12 +34,13 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         photos = [read_pixels(bpy.data.images[name]) for name in self._photo_names]
         if any(pixels is None for pixels in photos):
             raise SeedsError("a photo of the list cannot be read; remove it and load it again")
-        scan, settings = scan_of(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
+        read_scan, settings = scan_reader(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
         self._settings = settings
         numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}
         hand = renamed(seeds_of(obj, wanted=lambda seed: seed.reason == "hand"), numbered)
 
         def work(progress, cancelled):
+            scan = read_scan()
             matching = match_photos(scan, photos, settings, hand=hand, progress=progress, cancelled=cancelled)
             return matching, draw_matches(scan, photos, matching.seeds)
 

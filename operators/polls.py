@@ -44,6 +44,16 @@ def has_colored_seeds(cls, context):
     return True
 
 
+def has_selected_seeds(cls, context):
+    """A scan's object is active and a seed of it is selected."""
+    if not has_seeds(cls, context):
+        return False
+    if not any(seed.select for seed in scan_object(context).reflcolor.seeds):
+        cls.poll_message_set("Select a seed first")
+        return False
+    return True
+
+
 def has_colors(cls, context):
     """A scan's object is active and was colorized."""
     if not has_scan(cls, context):

@@ -70,25 +70,33 @@ def add_scan_object(context, scan, mesh_data):
 
 
 def scan_of(obj):
-    """Return the Scan that an object was made from, read back from its mesh.
+    """Return the Scan that an object was made from, read back from its mesh; raises as `scan_reader`."""
+    return scan_reader(obj)()
+
+
+def scan_reader(obj):
+    """Return a function that makes the Scan that an object was made from; it touches no bpy, a thread may call it.
 
     Raises
     ------
     ScanError
         If the mesh has lost the attributes that tie its vertices to the scan's grid.
     """
-    mesh, state = obj.data, obj.reflcolor
-    rows, cols = grid_indices(obj)
-    reflectance = np.zeros((state.rows, state.cols), np.float32)
-    reflectance[rows, cols] = values_of(obj, "reflectance", np.float32)
+    mesh, name, shape = obj.data, obj.name, (obj.reflcolor.rows, obj.reflcolor.cols)
+    place = grid_indices(obj)
+    measured = values_of(obj, "reflectance", np.float32)
     coordinates = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("co", coordinates)
     metres = bpy.context.scene.unit_settings.scale_length
-    points = np.zeros((state.rows, state.cols, 3))
-    points[rows, cols] = coordinates.reshape(-1, 3).astype(np.float64) * metres + np.array(mesh.get(CENTER, (0, 0, 0)))
-    valid = np.zeros((state.rows, state.cols), bool)
-    valid[rows, cols] = True
-    return Scan(name=obj.name, points=points, reflectance=reflectance, valid=valid)
+    center = np.array(mesh.get(CENTER, (0, 0, 0)))
+
+    def read():
+        reflectance, points, valid = np.zeros(shape, np.float32), np.zeros((*shape, 3)), np.zeros(shape, bool)
+        reflectance[place], valid[place] = measured, True
+        points[place] = coordinates.reshape(-1, 3).astype(np.float64) * metres + center
+        return Scan(name=name, points=points, reflectance=reflectance, valid=valid)
+
+    return read
 
 
 def grid_indices(obj):
@@ -104,6 +112,31 @@ def grid_indices(obj):
     if rows.size and (rows.min() < 0 or cols.min() < 0 or rows.max() >= state.rows or cols.max() >= state.cols):
         raise ScanError(f"{obj.name}: grid_row and grid_col point outside the scan; import the scan again")
     return rows, cols
+
+
+def seed_vertices(obj, rows, cols):
+    """Return where pixels of the scan are in the world, and which of them have a vertex.
+
+    Parameters
+    ----------
+    rows, cols : (S,) int
+
+    Returns
+    -------
+    places : (S, 3) float32
+    known : (S,) bool
+    """
+    mesh, width = obj.data, obj.reflcolor.cols
+    grid_rows, grid_cols = grid_indices(obj)
+    vertex = np.full(obj.reflcolor.rows * width, -1, np.int32)
+    vertex[grid_rows * width + grid_cols] = np.arange(len(grid_rows))
+    inside = (rows < obj.reflcolor.rows) & (cols < width)
+    index = np.where(inside, vertex[np.where(inside, rows * width + cols, 0)], -1)
+    coordinates = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", coordinates)
+    known = index >= 0
+    local = coordinates.reshape(-1, 3)[np.where(known, index, 0)]
+    return local @ np.array(obj.matrix_world.to_3x3(), np.float32).T + np.array(obj.matrix_world.translation), known
 
 
 def add_colors(obj, name, rgb):

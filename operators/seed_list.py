@@ -5,7 +5,8 @@ import numpy as np
 from bpy.props import IntProperty
 
 from ..reflcolor_addon.errors import SeedsError
-from ..reflcolor_addon.seeds import Seeds
+from ..reflcolor_addon.seeds import Seeds, nearest_valid
+from .scan_object import grid_indices
 
 
 class SeedPlace:
@@ -54,20 +55,48 @@ def seeds_of(obj, *, wanted=lambda seed: True):
 
 def append_seed(obj, row, col, rgb, photo=None, photo_xy=(0.0, 0.0)):
     """Add a seed to the object and select it; ``rgb`` is of 0..1."""
-    state = obj.reflcolor
-    seed = state.seeds.add()
+    seed = _add(obj.reflcolor.seeds, row, col, rgb, photo, photo_xy)
+    obj.reflcolor.active_seed = len(obj.reflcolor.seeds) - 1
+    return seed
+
+
+def _add(seeds, row, col, rgb, photo, photo_xy):
+    seed = seeds.add()
     seed.row, seed.col, seed.color = row, col, rgb
     seed.photo, seed.photo_xy = photo, photo_xy
-    state.active_seed = len(state.seeds) - 1
     return seed
 
 
 def append_seeds(obj, seeds):
     """Add the core's Seeds to the object; photos are found by name among the .blend's images."""
+    listed = obj.reflcolor.seeds
     columns = (seeds.rows, seeds.cols, seeds.rgb / 255, np.nan_to_num(seeds.photo_xy), seeds.confidence)
     for row, col, rgb, xy, confidence, photo, reason in zip(
         *(column.tolist() for column in columns), seeds.photos, seeds.reason, strict=True
     ):
-        seed = append_seed(obj, row, col, rgb, bpy.data.images.get(photo) if photo else None, xy)
+        seed = _add(listed, row, col, rgb, bpy.data.images.get(photo) if photo else None, xy)
         seed.reason = reason or "hand"
         seed.confidence = 1.0 if np.isnan(confidence) else confidence
+    obj.reflcolor.active_seed = len(listed) - 1
+
+
+def remove_seeds(obj, indices):
+    """Take seeds off the object; the next one becomes the selected one."""
+    state = obj.reflcolor
+    for index in sorted(indices, reverse=True):
+        state.seeds.remove(index)
+    state.active_seed = max(0, min([state.active_seed, len(state.seeds) - 1]))
+
+
+def selected_seeds(obj):
+    """Return the indices of the object's seeds that are selected."""
+    return [index for index, seed in enumerate(obj.reflcolor.seeds) if seed.select]
+
+
+def snapped_place(obj, row, col):
+    """Return (row, col) of the pixel with a return that is nearest to a pixel of the object's grid."""
+    valid = np.zeros((obj.reflcolor.rows, obj.reflcolor.cols), bool)
+    valid[grid_indices(obj)] = True
+    if not valid.any():
+        raise SeedsError(f"{obj.name}: no pixel has a return, so no seed can be placed")
+    return nearest_valid(valid, row, col)

@@ -21,7 +21,7 @@ class Colorize(Step):
         job = jobs.running()
         if job is not None:
             layout.progress(factor=job.fraction, text="Cancelling" if job.stopping else job.name)
-            layout.label(text="Press ESC to cancel", icon="EVENT_ESC")
+            layout.label(text="Press ESC to cancel", icon="CANCEL")
             return
         row = layout.row()
         row.scale_y = 1.5

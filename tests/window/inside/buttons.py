@@ -1,0 +1,91 @@
+"""Finds buttons by what they do, as Blender itself tells it of the button under the mouse, and clicks them."""
+
+import bpy
+
+# Buttons are 20 pixels high; the mouse goes down a region by this much.
+_STEP_PX = 18
+# Where in a region's width buttons are looked for: full-width ones, the icons on the right, the left of two in a row.
+_COLUMNS = (0.5, 0.93, 0.25, 0.75)
+_SCROLLS = 12
+
+
+class Buttons:
+    """Buttons are named by operator, "reflcolor.colorize", with its arguments if need be, or by property, "alpha"."""
+
+    def show_sidebar(self, kind="VIEW_3D", tab="Reflectance", index=0):
+        """Open an area's sidebar and bring a tab of it to the front."""
+        area = self.area(kind, index)
+        area.spaces.active.show_region_ui = True
+        for _ in range(100):
+            area = self.area(kind, index)
+            try:
+                # Raises until the region was drawn.
+                self.region(area, "UI").active_panel_category = tab
+                break
+            except AttributeError:
+                area.tag_redraw()
+                yield 0.05
+        else:
+            raise AssertionError(f"the sidebar of {kind} has no tab {tab}")
+        yield 0.2
+
+    def click_button(self, name, area=None, region="UI"):
+        """Look for a button in a region, scrolling it if need be, and click it."""
+        place = yield from self.find_button(name, area, region)
+        yield from self.click(place)
+
+    def find_button(self, name, area=None, region="UI"):
+        """Return the place of a button in a region, scrolling it if need be."""
+        area = area or self.area("VIEW_3D")
+        top = self.place_in(area, 0.5, 0.5, region)
+        for turns in (0, 2 * _SCROLLS, *[-3] * _SCROLLS):
+            if turns:
+                yield from self.wheel(top, turns)
+                yield 0.1
+            for column in _COLUMNS:
+                place = yield from self._look_down(name, area, region, column)
+                if place is not None:
+                    return place
+                if turns:
+                    continue
+        raise AssertionError(f"there is no button {name} in {area.ui_type} {region}")
+
+    def button_under_mouse(self, area, region="UI"):
+        """Return what the button under the mouse does: Python that calls it or the property's path; "" for none."""
+        manager = bpy.context.window_manager
+        with self.at(area, region):
+            for tell, arguments in (
+                (bpy.ops.ui.copy_python_command_button, {}),
+                (bpy.ops.ui.copy_data_path_button, {"full_path": True}),
+            ):
+                if tell.poll():
+                    tell(**arguments)
+                    return manager.clipboard
+        return ""
+
+    def _look_down(self, name, area, region, column):
+        found = self.region(area, region)
+        x, first = found.x + column * found.width, None
+        for y in range(found.y + found.height - 4, found.y, -_STEP_PX):
+            yield from self.move((x, y))
+            told = self.button_under_mouse(area, region)
+            if _is_button(told, name):
+                first = y
+                break
+        if first is None:
+            return None
+        # The mouse may be at the button's edge, and Blender a turn behind: believe it where it stays.
+        for y in (first - _STEP_PX // 2, first, first - _STEP_PX, first + _STEP_PX // 2):
+            yield from self.move((x, y))
+            yield 0.05
+            if _is_button(self.button_under_mouse(area, region), name):
+                return x, y
+        return None
+
+
+def _is_button(told, name):
+    """Whether what Blender tells of a button is the one meant: the operator, or a property of that name."""
+    if told.startswith("bpy.ops."):
+        call = told.removeprefix("bpy.ops.")
+        return call == name or call.startswith(f"{name}(")
+    return bool(told) and (told.endswith(f".{name}") or f".{name}[" in told)
