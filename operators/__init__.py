@@ -41,6 +41,8 @@ from . import (
     simulate,
     stroke_seeds,
     tools,
+    wipe,
+    wipe_handle,
 )
 
 _MODULES = (
@@ -61,6 +63,7 @@ _MODULES = (
     evaluate,
     show_look,
     copy_provenance,
+    wipe,
     simulate,
     leave_preview,
     place_seed,
@@ -78,7 +81,7 @@ _MODULES = (
     pick_in_view,
 )
 # What draws, listens or stands in a toolbar, with register() and unregister() of its own.
-_SERVICES = (draw_seeds, live_update, tools)
+_SERVICES = (draw_seeds, live_update, tools, wipe, wipe_handle)
 _undo = []
 
 

@@ -53,7 +53,7 @@ def add_scan_object(context, scan, mesh_data):
     state.source = str(scan.source or "")
     luminance, _ = normalize(scan.reflectance, scan.valid)
     range_image, _ = normalize(scan.range, scan.valid)
-    state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=True)
+    state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=False)
     state.range_image = write_image(None, f"{scan.name} Range", range_image / 255, is_data=True)
     add_colors(obj, GRAY, np.repeat(np.rint(luminance).astype(np.uint8)[scan.valid, None], 3, axis=1))
     if scan.color is not None:
