@@ -6,10 +6,12 @@ from . import (
     add_seed,
     apply_preset,
     clear_seeds,
+    close_seed_picking,
     colorize,
     command,
     copy_provenance,
     delete_seeds,
+    drag,
     drag_seeds,
     draw_seeds,
     drop_color,
@@ -34,6 +36,7 @@ from . import (
     remove_photo,
     remove_seed,
     save_seeds,
+    seed_picking,
     select_all_seeds,
     select_region,
     select_seed,
@@ -78,7 +81,10 @@ _MODULES = (
     drag_seeds,
     stroke_seeds,
     pick,
+    drag,
     pick_in_view,
+    seed_picking,
+    close_seed_picking,
 )
 # What draws, listens or stands in a toolbar, with register() and unregister() of its own.
 _SERVICES = (draw_seeds, live_update, tools, wipe, wipe_handle)

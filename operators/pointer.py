@@ -25,7 +25,7 @@ class PointerOperator:
         self.lost = False
         self._area, self._region = context.area, context.region
         self._waiting = event.type != "LEFTMOUSE"
-        if not self._waiting and not self.begin(context, (event.mouse_region_x, event.mouse_region_y)):
+        if not self._waiting and not self.begin(context, pressed_at(context.region, event)):
             return {"CANCELLED"}
         _following.append(self)
         context.window_manager.modal_handler_add(self)
@@ -66,6 +66,11 @@ class PointerOperator:
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         return outcome
+
+
+def pressed_at(region, event):
+    """Return where in a region the button went down: only some pixels further on does Blender call it a drag."""
+    return event.mouse_prev_press_x - region.x, event.mouse_prev_press_y - region.y
 
 
 def object_named(name):

@@ -3,6 +3,14 @@
 from .scan_object import COLORIZED
 
 
+def has_window(cls, context):
+    """There is a window, not only a script."""
+    if context.window is None:
+        cls.poll_message_set("Run this in Blender's window")
+        return False
+    return True
+
+
 def has_scan(cls, context):
     """A scan's object is active."""
     if scan_object(context) is None:

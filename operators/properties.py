@@ -260,7 +260,7 @@ class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup
     picked_photo: PointerProperty(name="Picked In", type=bpy.types.Image)
     picked_xy: FloatVectorProperty(name="Picked At", size=2)
     stroke_spacing: IntProperty(
-        name="Stroke Spacing",
+        name="Spacing",
         description="Pixels of the scan from one seed to the next when a stroke is drawn",
         subtype="PIXEL",
         default=16,

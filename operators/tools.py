@@ -17,11 +17,11 @@ def draw_settings(context, layout, _tool):
         row.prop(settings, "picked_color", text="")
         row.operator("reflcolor.drop_color", text="", icon="X")
     else:
-        row.label(text="Click in the scan, then in the photo", icon="INFO")
+        row.label(text="Click scan, then photo", icon="INFO")
+    layout.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")
     layout.operator("reflcolor.keep_gray", icon="COLORSET_13_VEC")
-    layout.prop(settings, "stroke_spacing")
     layout.prop(settings, "show_matches")
-    layout.prop(context.window_manager.reflcolor, "live_update", icon="FILE_REFRESH")
+    layout.prop(settings, "stroke_spacing")
 
 
 def _pick(act, **modifiers):
@@ -62,8 +62,7 @@ class SeedTool(bpy.types.WorkSpaceTool):
         _region("lasso", "set", ctrl=True),
         _region("lasso", "add", ctrl=True, shift=True),
         _region("box", "set", "B", "PRESS"),
-        ("reflcolor.drag_seeds", {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),
-        ("reflcolor.stroke_seeds", {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),
+        ("reflcolor.drag", {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),
         ("reflcolor.delete_seeds", {"type": "X", "value": "PRESS"}, None),
         ("reflcolor.delete_seeds", {"type": "DEL", "value": "PRESS"}, None),
         ("reflcolor.keep_gray", {"type": "G", "value": "PRESS", "shift": True}, None),
