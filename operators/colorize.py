@@ -6,10 +6,12 @@ from ..reflcolor_addon.colorize import colorize
 from . import live_update, polls
 from .colorized_object import show_colorization
 from .jobs import JobOperator
+from .notices import tell
 from .properties import COLORIZE_NAMES, ColorizeSettings, core_settings
 from .provenance import record_provenance, window_report
 from .scan_object import scan_reader
 from .seed_list import seeds_of
+from .texts import told
 
 
 class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
@@ -42,13 +44,12 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
     def finish(self, context, result):
         obj = bpy.data.objects.get(self._object_name)
         if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != result.rgb.shape[:2]:
-            self.report({"WARNING"}, f"{self._object_name} is gone; its colors were dropped")
+            self.report({"WARNING"}, told("{name} is gone; its colors were dropped", name=self._object_name))
             return
         show_colorization(obj, result)
         record_provenance(obj, window_report(obj, result, self._settings, self._seeds))
-        for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Colorized {obj.name} from {len(result.seeds)} seeds")
+        said = told("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
+        tell(self, obj, said, result.warnings, self._seeds)
 
 
 classes = (REFLCOLOR_OT_colorize,)

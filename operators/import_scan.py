@@ -16,8 +16,10 @@ from ..reflcolor_addon.readers import SCAN_SUFFIXES, read_scans
 from ..reflcolor_addon.readers.pair_description import describe_pair
 from ..reflcolor_addon.report import input_entry, scan_entry
 from .jobs import JobOperator
+from .notices import tell
 from .provenance import record_import
 from .scan_object import add_scan_object
+from .texts import told
 
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
 
@@ -144,10 +146,9 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
 
     def finish(self, context, result):
         for scan, mesh_data, entry, inputs in result:
-            record_import(add_scan_object(context, scan, mesh_data), entry, inputs, scan.warnings)
-            for warning in scan.warnings:
-                self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Imported {', '.join(scan.name for scan, *_ in result)}")
+            obj = add_scan_object(context, scan, mesh_data)
+            record_import(obj, entry, inputs, scan.warnings)
+            tell(self, obj, told("Imported {name}", name=scan.name), scan.warnings)
 
     def _sensor_model(self):
         if self.sensor == "pinhole":

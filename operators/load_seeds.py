@@ -9,10 +9,12 @@ from bpy_extras.io_utils import ImportHelper
 from ..reflcolor_addon.seeds import Seeds, find_photo
 from . import polls
 from .load_photo import add_photo
+from .notices import tell
 from .provenance import record_seeds_file
 from .reports import reported
 from .scan_object import scan_of
 from .seed_list import append_seeds
+from .texts import told
 
 
 class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
@@ -42,9 +44,7 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
             obj.reflcolor.seeds.clear()
         append_seeds(obj, seeds)
         record_seeds_file(obj, self.filepath, others=not self.replace)
-        for warning in warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Loaded {len(seeds)} seeds")
+        tell(self, obj, told("Loaded {count} seeds", count=len(seeds)), warnings, seeds)
         return {"FINISHED"}
 
 

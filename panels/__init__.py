@@ -2,10 +2,10 @@
 
 import bpy
 
-from . import colorize, compare, images, legend, looking, provenance, scan, seeds
+from . import colorize, compare, images, legend, looking, messages, provenance, scan, seeds
 
 # In the order that they are drawn in.
-_MODULES = (scan, images, seeds, colorize, compare, looking, provenance)
+_MODULES = (scan, images, seeds, colorize, messages, compare, looking, provenance)
 _registered = []
 
 
