@@ -111,7 +111,8 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
     swap_images: BoolProperty(name="Swap Images", description="Take the other one of the two images as the range image")
 
     def invoke(self, context, event):
-        if self.filepath:
+        # Given by a drop or a script; what was picked the last time does not count as given.
+        if self.properties.is_property_set("filepath"):
             return self.start(context)
         self._browsed = True
         return ImportHelper.invoke(self, context, event)

@@ -31,6 +31,11 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
     def poll(cls, context):
         return polls.has_scan(cls, context)
 
+    def invoke(self, context, event):
+        if self.properties.is_property_set("filepath"):
+            return self.execute(context)
+        return ImportHelper.invoke(self, context, event)
+
     @reported
     def execute(self, context):
         obj = polls.scan_object(context)

@@ -74,13 +74,12 @@ def center_images(context, obj, row, col):
         side = side_in(area, region, context)
         if side is None or not side.is_scan or side.obj != obj:
             continue
-        space, (width, height) = area.spaces.active, side.image.size
-        x, y = (col + 0.5) / width, 1 - (row + 0.5) / height
-        before = space.cursor_location[:]
-        space.cursor_location = (x * width, y * height) if space.uv_editor.show_pixel_coords else (x, y)
+        x, y = side.view.to_region((col + 0.5, row + 0.5))
+        # A border as large as the region moves the view and keeps its zoom.
+        left, bottom = round(x - region.width / 2), round(y - region.height / 2)
+        border = {"xmin": left, "xmax": left + region.width, "ymin": bottom, "ymax": bottom + region.height}
         with context.temp_override(area=area, region=region):
-            bpy.ops.image.view_center_cursor()
-        space.cursor_location = before
+            bpy.ops.image.view_zoom_border(**border)
 
 
 classes = (REFLCOLOR_OT_show_notice,)
