@@ -1,62 +1,57 @@
-"""Drag seeds in the reflectance image, or the points that their colors are from in a photo."""
+"""Dragging seeds in the reflectance image, or the points that their colors are from in a photo."""
 
 import bpy
 
 from ..reflcolor_addon.picking import clamped_pixel, clamped_point
 from .editors import redraw_editors
-from .image_sides import event_side
 from .images import read_pixel
-from .pointer import PointerOperator, object_named
+from .pointer import object_named
 from .seed_list import selected_seeds, snapped_place
 
 
-class REFLCOLOR_OT_drag_seeds(PointerOperator, bpy.types.Operator):
-    """Drag a seed, with all that are selected if it is, to another pixel, or to another point of its photo"""
+class DragSeeds:
+    """One drag of the selected seeds, as `PointerOperator` asks for it.
 
-    bl_idname = "reflcolor.drag_seeds"
-    bl_label = "Drag Seeds"
-    bl_options = {"UNDO", "BLOCKING"}
-    hint = "Drag Seeds"
+    Parameters
+    ----------
+    side : Side
+        What the pointer is over.
+    hit : int
+        The seed that was taken hold of.
+    place : (x, y)
+        Of the region.
+    """
 
-    def begin(self, context, place):
-        side = event_side(context)
-        hit = None if side is None else side.hit(place)
-        if hit is None:
-            return False
+    def __init__(self, side, hit, place):
         seeds = side.obj.reflcolor.seeds
         if not seeds[hit].select:
-            context.view_layer.objects.active = side.obj
             side.obj.reflcolor.active_seed = hit
         here = side.marks()[1]
         self._object, self._image, self._is_scan = side.obj.name, side.image.name, side.is_scan
         self._view, self._start = side.view, side.view.to_image(place)
         self._before = {index: _state(seeds[index]) for index in selected_seeds(side.obj) if here[index]}
-        return True
 
-    def follow(self, context, place):
+    def follow(self, _context, place):
         obj, image = object_named(self._object), bpy.data.images.get(self._image)
         if obj is None or image is None or max(self._before) >= len(obj.reflcolor.seeds):
-            self.lost = True
-            return
+            return False
         x, y = self._view.to_image(place)
         dx, dy = x - self._start[0], y - self._start[1]
+        shape = obj.reflcolor.rows, obj.reflcolor.cols
         for index, (row, col, xy, *_) in self._before.items():
             seed = obj.reflcolor.seeds[index]
             if self._is_scan:
-                seed.row, seed.col = clamped_pixel(
-                    (col + 0.5 + dx, row + 0.5 + dy), (obj.reflcolor.rows, obj.reflcolor.cols)
-                )
+                seed.row, seed.col = clamped_pixel((col + 0.5 + dx, row + 0.5 + dy), shape)
             else:
                 seed.photo_xy = clamped_point((xy[0] + dx, xy[1] + dy), image.size)
                 color = read_pixel(image, *seed.photo_xy)
                 if color is not None:
                     seed.color = color
         redraw_editors()
+        return True
 
     def finish(self, _context):
         obj = object_named(self._object)
-        if obj is None:
-            return False
         for index in self._before:
             seed = obj.reflcolor.seeds[index]
             if self._is_scan:
@@ -68,9 +63,7 @@ class REFLCOLOR_OT_drag_seeds(PointerOperator, bpy.types.Operator):
 
     def give_up(self, _context):
         obj = object_named(self._object)
-        if obj is None:
-            return
-        for index, (row, col, xy, color, has_color) in self._before.items():
+        for index, (row, col, xy, color, has_color) in self._before.items() if obj is not None else ():
             if index < len(obj.reflcolor.seeds):
                 seed = obj.reflcolor.seeds[index]
                 seed.row, seed.col, seed.photo_xy, seed.color = row, col, xy, color
@@ -80,6 +73,3 @@ class REFLCOLOR_OT_drag_seeds(PointerOperator, bpy.types.Operator):
 
 def _state(seed):
     return seed.row, seed.col, tuple(seed.photo_xy), tuple(seed.color), seed.has_color
-
-
-classes = (REFLCOLOR_OT_drag_seeds,)

@@ -77,6 +77,8 @@ class JobOperator:
     ``work(progress, cancelled)``, and ``finish(context, result)``, which writes the result in one step.
     """
 
+    _job = None
+
     def execute(self, context):
         return self.run_blocking(context)
 
@@ -118,9 +120,10 @@ class JobOperator:
         return self._outcome(context)
 
     def cancel(self, context):
-        """Blender ends the operator, because its window or file goes away."""
-        self._job.cancel(wait=True)
-        self._end(context)
+        """Blender ends the operator, because its window or file goes away, or its file browser was left."""
+        if self._job is not None:
+            self._job.cancel(wait=True)
+            self._end(context)
 
     @reported
     def _outcome(self, context):

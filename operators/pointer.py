@@ -1,32 +1,42 @@
 """Operators that follow the pointer from press to release."""
 
 import bpy
+from bpy.props import BoolProperty
 
 _following = []
 
 
 def stop_all():
     """Let go of whatever is being dragged; the extension is about to go."""
-    while _following:
-        _following.pop().release()
+    for operator in list(_following):
+        operator.let_go()
 
 
 class PointerOperator:
-    """Follows the pointer while the left mouse button is down; started by a key, it waits for the button first.
+    """Follows the pointer while the left mouse button is down; with ``wait``, that is waited for first.
 
-    A subclass gives ``begin(context, place)``, which returns whether there is anything to do, ``follow(context,
-    place)``, ``finish(context)``, which returns whether anything was changed, ``give_up(context)``, which puts things
-    back, and ``release()``, which drops what was held meanwhile. Places are (x, y) in the region.
+    A subclass gives ``begin(context, place)``, which returns None where there is nothing to do, else an object that has
+    ``follow(context, place)``, which returns whether it can go on, ``finish(context)``, which returns whether anything
+    was changed, ``give_up(context)``, which puts things back, and perhaps ``release()``, called at the end of either.
+    Places are (x, y) in the region.
     """
 
     hint = ""
 
+    wait: BoolProperty(
+        name="Wait",
+        description="Wait for the mouse button to be pressed, as when a key began it",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+
     def invoke(self, context, event):
-        self.lost = False
-        self._area, self._region = context.area, context.region
-        self._waiting = event.type != "LEFTMOUSE"
-        if not self._waiting and not self.begin(context, pressed_at(context.region, event)):
-            return {"CANCELLED"}
+        self._area, self._region, self._drag = context.area, context.region, None
+        if not self.wait:
+            # Where the button went down: only some pixels further on does Blender call it a drag.
+            place = event.mouse_prev_press_x - self._region.x, event.mouse_prev_press_y - self._region.y
+            self._drag = self.begin(context, place)
+            if self._drag is None:
+                return {"CANCELLED"}
         _following.append(self)
         context.window_manager.modal_handler_add(self)
         context.workspace.status_text_set(f"{self.hint}   |   ESC: Cancel")
@@ -34,43 +44,42 @@ class PointerOperator:
 
     def modal(self, context, event):
         place = event.mouse_x - self._region.x, event.mouse_y - self._region.y
+        if self not in _following:
+            return {"CANCELLED"}
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            if not self._waiting:
-                self.give_up(context)
+            if self._drag is not None:
+                self._drag.give_up(context)
             return self._end(context, {"CANCELLED"})
-        if self._waiting:
+        if self._drag is None:
             if event.type == "LEFTMOUSE" and event.value == "PRESS":
-                self._waiting = False
-                return {"RUNNING_MODAL"} if self.begin(context, place) else self._end(context, {"CANCELLED"})
+                self._drag = self.begin(context, place)
+                return {"RUNNING_MODAL"} if self._drag is not None else self._end(context, {"CANCELLED"})
             return {"RUNNING_MODAL"}
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
-            self.follow(context, place)
-            done = not self.lost and self.finish(context)
+            done = self._drag.follow(context, place) and self._drag.finish(context)
             return self._end(context, {"FINISHED"} if done else {"CANCELLED"})
         if event.type == "MOUSEMOVE":
-            self.follow(context, place)
+            if not self._drag.follow(context, place):
+                return self._end(context, {"CANCELLED"})
             self._area.tag_redraw()
-        return self._end(context, {"CANCELLED"}) if self.lost else {"RUNNING_MODAL"}
+        return {"RUNNING_MODAL"}
 
     def cancel(self, context):
         """Blender ends the operator, because its window or file goes away."""
         self._end(context, {"CANCELLED"})
 
-    def release(self):
-        """Drop what was held while the pointer was followed."""
-
-    def _end(self, context, outcome):
+    def let_go(self):
+        """Drop what is held; the operator ends at the next event."""
         if self in _following:
             _following.remove(self)
-            self.release()
+            if hasattr(self._drag, "release"):
+                self._drag.release()
+
+    def _end(self, context, outcome):
+        self.let_go()
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         return outcome
-
-
-def pressed_at(region, event):
-    """Return where in a region the button went down: only some pixels further on does Blender call it a drag."""
-    return event.mouse_prev_press_x - region.x, event.mouse_prev_press_y - region.y
 
 
 def object_named(name):

@@ -38,23 +38,28 @@ class REFLCOLOR_OT_select_region(PointerOperator, bpy.types.Operator):
     def begin(self, context, place):
         side = event_side(context)
         if side is None or not len(side.obj.reflcolor.seeds):
-            return False
+            return None
         context.view_layer.objects.active = side.obj
+        return _Outline(side, context.region, place, self.shape, self.mode)
+
+
+class _Outline:
+    """An outline that is being drawn, as `PointerOperator` asks for it."""
+
+    def __init__(self, side, region, place, shape, mode):
         points, here = side.marks()
-        self._object, self._outline, self._start = side.obj.name, [place], place
+        self._object, self._outline, self._shape, self._mode = side.obj.name, [place], shape, mode
         self._indices = np.flatnonzero(here)
         self._points = side.view.to_region(points[self._indices])
-        region = context.region
-        self._handle = bpy.types.SpaceImageEditor.draw_handler_add(
-            lambda: draw_outline(self._outline) if bpy.context.region == region else None, (), "WINDOW", "POST_PIXEL"
-        )
-        return True
+        self._region = region
+        self._handle = bpy.types.SpaceImageEditor.draw_handler_add(self._draw, (), "WINDOW", "POST_PIXEL")
 
     def follow(self, _context, place):
-        if self.shape == "box":
-            self._outline = list(box_outline(self._start, place))
+        if self._shape == "box":
+            self._outline = list(box_outline(self._outline[0], place))
         else:
             self._outline.append(place)
+        return True
 
     def finish(self, _context):
         obj = object_named(self._object)
@@ -62,7 +67,7 @@ class REFLCOLOR_OT_select_region(PointerOperator, bpy.types.Operator):
             return False
         inside = set(self._indices[inside_outline(self._points, self._outline)].tolist())
         before = set(selected_seeds(obj))
-        chosen = {"set": inside, "add": before | inside, "subtract": before - inside}[self.mode]
+        chosen = {"set": inside, "add": before | inside, "subtract": before - inside}[self._mode]
         select_only(obj.reflcolor.seeds, chosen)
         redraw_editors()
         return True
@@ -71,8 +76,11 @@ class REFLCOLOR_OT_select_region(PointerOperator, bpy.types.Operator):
         redraw_editors()
 
     def release(self):
-        if getattr(self, "_handle", None) is not None:
-            bpy.types.SpaceImageEditor.draw_handler_remove(self._handle, "WINDOW")
+        bpy.types.SpaceImageEditor.draw_handler_remove(self._handle, "WINDOW")
+
+    def _draw(self):
+        if bpy.context.region == self._region:
+            draw_outline(self._outline)
 
 
 classes = (REFLCOLOR_OT_select_region,)

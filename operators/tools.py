@@ -29,7 +29,7 @@ def _pick(act, **modifiers):
 
 
 def _region(shape, mode, key="LEFTMOUSE", value="CLICK_DRAG", **modifiers):
-    properties = {"properties": [("shape", shape), ("mode", mode)]}
+    properties = {"properties": [("shape", shape), ("mode", mode), ("wait", key != "LEFTMOUSE")]}
     return "reflcolor.select_region", {"type": key, "value": value, **modifiers}, properties
 
 

@@ -15,7 +15,7 @@ OUT = ROOT / "build" / "window"
 DATA = Path(os.environ.get("REFLCOLOR_DATA") or ROOT.parent / "shared" / "data")
 SESSION = ROOT / "tools" / "window_session.sh"
 SIZE = (1280, 900)
-LIMIT_S = 180
+LIMIT_S = 400
 LOG_LINES = 40
 
 # What Blender, Python and the operators' reports write where something went wrong.

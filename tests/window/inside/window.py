@@ -84,9 +84,13 @@ class Window(Hands, Eyes, Buttons, Stalls):
 
     def start_anew(self):
         """Open Blender's factory startup file without its cube, in one window, nothing of an earlier scenario left."""
-        bpy.context.preferences.view.show_splash = False
+        preferences = bpy.context.preferences
+        preferences.view.show_splash = False
         # There is no window manager under Xvfb: what would open in a window of its own opens in this one.
-        bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
+        preferences.view.filebrowser_display_type = preferences.view.render_display_type = "SCREEN"
+        # Without a graphics card the view would take seconds to become smooth after every change.
+        preferences.system.viewport_aa = "FXAA"
+        preferences.view.smooth_view = 0
         bpy.ops.wm.read_homefile(use_factory_startup=True)
         yield 0.3
         bpy.data.objects.remove(bpy.data.objects["Cube"])

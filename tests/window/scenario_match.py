@@ -1,0 +1,41 @@
+"""Seeds are found in a photo, by the panel's button, and ESC in the middle changes nothing."""
+
+from inside.scans import state_of
+
+
+def prepared(window):
+    """The example with its photo and a seed picked by hand, the sidebar open."""
+    window.call("reflcolor.import_scan", filepath=window.example("cones.scan.json"))
+    window.call("reflcolor.load_photo", filepath=window.example("photo.jpg"))
+    window.call("reflcolor.add_seed", row=10, col=20, color=(0.1, 0.2, 0.9))
+    yield from window.show_sidebar()
+
+
+def scenario_match_finds_seeds_and_keeps_picked_ones(window):
+    yield from prepared(window)
+    yield from window.click_button("reflcolor.match_photos")
+    yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 100, 60, "more than 100 seeds are found")
+    seeds = window.scan.reflcolor.seeds
+    window.equal((seeds[0].row, seeds[0].col, seeds[0].reason), (10, 20, "hand"), "the seed picked by hand")
+    window.check("verified" in window.scene.reflcolor.photos[0].note, "the photo's note says that it was verified")
+    yield from window.screenshot("found")
+    window.area("TIMELINE").ui_type = "IMAGE_EDITOR"
+    window.area("IMAGE_EDITOR").spaces.active.image = window.scan.reflcolor.matches_image
+    yield from window.screenshot("matches")
+    yield from window.undo()
+    window.equal(len(window.scan.reflcolor.seeds), 1, "seeds after Ctrl Z")
+
+
+def scenario_esc_while_matching_changes_nothing(window):
+    yield from prepared(window)
+    before = state_of(window.scan)
+    yield from window.click_button("reflcolor.match_photos")
+    yield from window.until(lambda: window.running() and window.running().fraction > 0, 20, "the work begins")
+    yield from window.screenshot("running", still=False)
+    window.check(window.running() is not None, "it still runs when ESC is pressed")
+    yield from window.move(window.place_in(window.area("VIEW_3D")))
+    yield from window.key("ESC")
+    yield from window.until(lambda: window.running() is None, 10, "ESC ends the work")
+    yield 0.2
+    window.equal(state_of(window.scan), before, "seeds, colors, attributes and images after ESC")
+    window.equal(window.scene.reflcolor.photos[0].note, "", "the photo's note")
