@@ -9,10 +9,13 @@ from . import (
     close_seed_picking,
     colorize,
     command,
+    copy_notice,
+    copy_provenance,
     delete_seeds,
     drag,
     draw_seeds,
     drop_color,
+    drop_files,
     evaluate,
     import_scan,
     jobs,
@@ -31,6 +34,7 @@ from . import (
     place_seed,
     pointer,
     properties,
+    read_notice,
     remove_photo,
     remove_seed,
     save_seeds,
@@ -38,8 +42,12 @@ from . import (
     select_all_seeds,
     select_region,
     select_seed,
+    show_look,
+    show_notice,
     simulate,
     tools,
+    wipe,
+    wipe_handle,
 )
 
 _MODULES = (
@@ -58,6 +66,13 @@ _MODULES = (
     apply_preset,
     colorize,
     evaluate,
+    show_look,
+    copy_provenance,
+    show_notice,
+    read_notice,
+    copy_notice,
+    drop_files,
+    wipe,
     simulate,
     leave_preview,
     place_seed,
@@ -76,7 +91,7 @@ _MODULES = (
     close_seed_picking,
 )
 # What draws, listens or stands in a toolbar, with register() and unregister() of its own.
-_SERVICES = (draw_seeds, live_update, tools)
+_SERVICES = (draw_seeds, live_update, tools, wipe, wipe_handle)
 _undo = []
 
 

@@ -1,6 +1,7 @@
 """What seeds look like in an editor: marks, lines and outlines, in colors of the screen."""
 
 import functools
+import itertools
 
 import gpu
 import numpy as np
@@ -157,3 +158,36 @@ def draw_outline(outline):
         shader.uniform_float("color", color)
         batch_for_shader(shader, "LINE_STRIP", {"pos": places}).draw(shader)
     gpu.state.blend_set("NONE")
+
+
+def draw_bar(x, bottom, top, width):
+    """Draw an upright line in pixels of the region: light with dark edges, so that it shows on any image."""
+    gpu.state.blend_set("ALPHA")
+    for half, color in ((width / 2 + 1, (0.0, 0.0, 0.0, 0.6)), (width / 2, (1.0, 1.0, 1.0, 0.95))):
+        _draw_strip([(x - half, bottom), (x + half, bottom), (x - half, top), (x + half, top)], color)
+    gpu.state.blend_set("NONE")
+
+
+def draw_handle(x, y, radius, *, bright):
+    """Draw a disk with arrows to the left and to the right, in pixels of the region."""
+    angles = np.linspace(0, 2 * np.pi, 33)
+    gpu.state.blend_set("ALPHA")
+    for size, color in (
+        (radius + 1.5, (0.0, 0.0, 0.0, 0.6)),
+        (radius, (1.0,) * 4 if bright else (0.9, 0.9, 0.9, 0.95)),
+    ):
+        rim = np.stack([x + size * np.cos(angles), y + size * np.sin(angles)], axis=-1)
+        fan = [corner for one, two in itertools.pairwise(rim) for corner in ((x, y), one, two)]
+        _draw_strip(fan, color, kind="TRIS")
+    for side in (-1, 1):
+        tip, foot, half = x + side * radius * 0.75, x + side * radius * 0.25, radius * 0.35
+        _draw_strip([(tip, y), (foot, y + half), (foot, y - half)], (0.15, 0.15, 0.15, 1.0), kind="TRIS")
+    gpu.state.blend_set("NONE")
+
+
+def _draw_strip(corners, color, kind="TRI_STRIP"):
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    shader.bind()
+    shader.uniform_float("color", color)
+    places = [(float(px), float(py), 0.0) for px, py in corners]
+    batch_for_shader(shader, kind, {"pos": places}).draw(shader)

@@ -19,6 +19,19 @@ def has_scan(cls, context):
     return True
 
 
+def has_editable_scan(cls, context):
+    """A scan's object is active, and its mesh can be written to."""
+    if not has_scan(cls, context):
+        return False
+    if scan_object(context).data.library is not None:
+        cls.poll_message_set("The mesh is linked from another file; make it local first")
+        return False
+    if scan_object(context).mode == "EDIT":
+        cls.poll_message_set("Leave Edit Mode first")
+        return False
+    return True
+
+
 def has_seeds(cls, context):
     """A scan's object is active and has seeds."""
     if not has_scan(cls, context):

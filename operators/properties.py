@@ -14,6 +14,7 @@ from bpy.props import (
 
 from ..reflcolor_addon import settings
 from .editors import redraw_editors, select_only
+from .notices import ReflcolorNotice
 
 
 def _color_was_given(seed, _context):
@@ -87,6 +88,8 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     colorized_image: PointerProperty(name="Colorized Image", type=bpy.types.Image)
     preview_image: PointerProperty(name="Live Preview", type=bpy.types.Image)
     matches_image: PointerProperty(name="Matches", type=bpy.types.Image)
+    notices: CollectionProperty(name="Messages", description="What the last operation had to say", type=ReflcolorNotice)
+    active_notice: IntProperty(name="Active Message", description="Message that is selected in the list")
     truth_image: PointerProperty(
         name="True Colors",
         description="Image with one pixel per pixel of the scan, to compare the colors with; "
@@ -305,4 +308,4 @@ def take_over(holder, chosen):
             setattr(holder, name, str(value) if name == "neighbors" else value)
 
 
-classes = (ReflcolorSeed, ReflcolorPhoto, ReflcolorScan, ReflcolorSettings)
+classes = (ReflcolorSeed, ReflcolorPhoto, ReflcolorNotice, ReflcolorScan, ReflcolorSettings)

@@ -14,8 +14,12 @@ from .nodes import node_tree_of
 GRAY = "Reflectance Gray"
 COLORIZED = "Colorized"
 SCANNED = "Scanned Color"
+CONFIDENCE = "confidence"
+NEAREST_SEED = "nearest_seed"
+ERROR = "error"
 SHIFT = "reflcolor_shift"
 CENTER = "reflcolor_center"
+_KINDS = {np.float32: "FLOAT", np.int32: "INT"}
 
 
 def add_scan_object(context, scan, mesh_data):
@@ -49,7 +53,7 @@ def add_scan_object(context, scan, mesh_data):
     state.source = str(scan.source or "")
     luminance, _ = normalize(scan.reflectance, scan.valid)
     range_image, _ = normalize(scan.range, scan.valid)
-    state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=True)
+    state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=False)
     state.range_image = write_image(None, f"{scan.name} Range", range_image / 255, is_data=True)
     add_colors(obj, GRAY, np.repeat(np.rint(luminance).astype(np.uint8)[scan.valid, None], 3, axis=1))
     if scan.color is not None:
@@ -80,7 +84,7 @@ def scan_reader(obj):
     """
     mesh, name, shape = obj.data, obj.name, (obj.reflcolor.rows, obj.reflcolor.cols)
     place = grid_indices(obj)
-    measured = _read_attribute(obj, "reflectance", np.float32)
+    measured = values_of(obj, "reflectance", np.float32)
     coordinates = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("co", coordinates)
     metres = bpy.context.scene.unit_settings.scale_length
@@ -103,7 +107,7 @@ def grid_indices(obj):
     ScanError
         If the attributes are gone or point outside the grid.
     """
-    rows, cols = (_read_attribute(obj, name, np.int32) for name in ("grid_row", "grid_col"))
+    rows, cols = (values_of(obj, name, np.int32) for name in ("grid_row", "grid_col"))
     state = obj.reflcolor
     if rows.size and (rows.min() < 0 or cols.min() < 0 or rows.max() >= state.rows or cols.max() >= state.cols):
         raise ScanError(f"{obj.name}: grid_row and grid_col point outside the scan; import the scan again")
@@ -167,26 +171,52 @@ def colors_of(obj, name):
 
 
 def add_values(obj, name, values):
-    """Write (N,) float32, one per vertex, as an attribute of that name; one that is there is replaced."""
+    """Write (N,) numbers, one per vertex, as an attribute of that name; one that is there is replaced.
+
+    Whole numbers are kept as int32, others as float32.
+    """
+    values = np.asarray(values)
+    dtype = np.int32 if values.dtype.kind in "iu" else np.float32
     attribute = obj.data.attributes.get(name)
-    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
         obj.data.attributes.remove(attribute)
         attribute = None
     if attribute is None:
-        attribute = obj.data.attributes.new(name, "FLOAT", "POINT")
-    attribute.data.foreach_set("value", np.ascontiguousarray(values, np.float32))
+        attribute = obj.data.attributes.new(name, _KINDS[dtype], "POINT")
+    attribute.data.foreach_set("value", np.ascontiguousarray(values, dtype))
     obj.data.update()
+
+
+def values_of(obj, name, dtype):
+    """Return the (N,) float32 or int32, one per vertex, of the attribute of that name.
+
+    Raises
+    ------
+    ScanError
+        If it is there no more, or holds something else.
+    """
+    attribute = obj.data.attributes.get(name)
+    if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
+        raise ScanError(f"{obj.name}: the mesh has lost its attribute {name}; undo what removed it, or import again")
+    values = np.empty(len(attribute.data), dtype)
+    attribute.data.foreach_get("value", values)
+    return values
 
 
 def show_colors(obj, name):
     """Make a color attribute the one that is seen: in viewports, renders and exports."""
     mesh = obj.data
-    mesh.color_attributes.active_color_name = name
+    look_at(obj, name)
     mesh.color_attributes.render_color_index = mesh.color_attributes.find(name)
     for material in filter(None, mesh.materials):
         for node in material.node_tree.nodes if material.node_tree else ():
             if node.type == "VERTEX_COLOR":
                 node.layer_name = name
+
+
+def look_at(obj, name):
+    """Make a color attribute the one that solid viewports show; renders and exports keep theirs."""
+    obj.data.color_attributes.active_color_name = name
     # Solid views show the material's one color unless told otherwise.
     for screen in bpy.data.screens:
         for area in screen.areas:
@@ -213,16 +243,6 @@ def _fill_mesh(mesh, scan, mesh_data, coordinates):
         ("grid_col", "INT", mesh_data.cols),
     ):
         mesh.attributes.new(name, kind, "POINT").data.foreach_set("value", np.ascontiguousarray(values))
-
-
-def _read_attribute(obj, name, dtype):
-    attribute = obj.data.attributes.get(name)
-    kind = {np.float32: "FLOAT", np.int32: "INT"}[dtype]
-    if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", kind):
-        raise ScanError(f"{obj.name}: the mesh has lost its attribute {name}; undo what removed it, or import again")
-    values = np.empty(len(attribute.data), dtype)
-    attribute.data.foreach_get("value", values)
-    return values
 
 
 def _material(name):

@@ -33,6 +33,7 @@ def _region(shape, mode, key="LEFTMOUSE", value="CLICK_DRAG", **modifiers):
     return "reflcolor.select_region", {"type": key, "value": value, **modifiers}, properties
 
 
+_MENU = ("wm.call_menu", {"type": "RIGHTMOUSE", "value": "PRESS"}, {"properties": [("name", "REFLCOLOR_MT_scan")]})
 _LEAVE = (
     ("reflcolor.drop_color", {"type": "ESC", "value": "PRESS"}, None),
     ("reflcolor.leave_preview", {"type": "ESC", "value": "PRESS"}, None),
@@ -74,6 +75,7 @@ class SeedTool(bpy.types.WorkSpaceTool):
             {"type": "A", "value": "PRESS", "alt": True},
             {"properties": [("which", "none")]},
         ),
+        _MENU,
         *_LEAVE,
     )
     draw_settings = staticmethod(draw_settings)
