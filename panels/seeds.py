@@ -9,11 +9,11 @@ class REFLCOLOR_UL_seeds(bpy.types.UIList):
     """Seeds of a scan: color, number, row and column"""
 
     def draw_item(self, _context, layout, _data, seed, _icon, _active_data, _active_property, index):
-        split = layout.split(factor=0.3)
+        split = layout.split(factor=0.2)
         if seed.has_color:
             split.prop(seed, "color", text="")
         else:
-            split.label(text="No Color", icon="QUESTION")
+            split.label(text="", icon="QUESTION")
         row = split.row()
         row.label(text=f"{index + 1}:  {seed.row}, {seed.col}", translate=False)
         if seed.reason != "hand":
