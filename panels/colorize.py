@@ -2,6 +2,7 @@
 
 from ..operators import jobs, live_update
 from ..reflcolor_addon.settings import PRESETS
+from .presets import REFLCOLOR_PT_colorize_presets
 from .step import Step, in_both_editors, in_view
 
 
@@ -9,6 +10,9 @@ class Colorize(Step):
     """Spread the colors"""
 
     bl_label = "4. Colorize"
+
+    def draw_header_preset(self, _context):
+        REFLCOLOR_PT_colorize_presets.draw_panel_header(self.layout)
 
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor

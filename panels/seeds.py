@@ -2,6 +2,7 @@
 
 import bpy
 
+from .presets import REFLCOLOR_PT_match_presets
 from .step import Step, in_both_editors
 
 
@@ -55,6 +56,9 @@ class Match(Step):
 
     bl_label = "Find in Photos"
     bl_parent_id = "REFLCOLOR_PT_seeds"
+
+    def draw_header_preset(self, _context):
+        REFLCOLOR_PT_match_presets.draw_panel_header(self.layout)
 
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor
