@@ -20,6 +20,7 @@ from .notices import tell
 from .provenance import record_import
 from .scan_object import add_scan_object
 from .texts import told
+from .viewpoint import show_first
 
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
 
@@ -146,10 +147,13 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         return work
 
     def finish(self, context, result):
+        is_first = not any(obj.reflcolor.rows for obj in bpy.data.objects)
         for scan, mesh_data, entry, inputs in result:
             obj = add_scan_object(context, scan, mesh_data)
             record_import(obj, entry, inputs, scan.warnings)
             tell(self, obj, told("Imported {name}", name=scan.name), scan.warnings)
+        if is_first:
+            show_first(context, count=len(result))
 
     def _sensor_model(self):
         if self.sensor == "pinhole":

@@ -5,12 +5,15 @@ import bpy
 from .presets import REFLCOLOR_PT_match_presets
 from .step import Step, in_both_editors
 
+# Of the list's width.
+_COLOR_SHARE = 0.3
+
 
 class REFLCOLOR_UL_seeds(bpy.types.UIList):
     """Seeds of a scan: color, number, row and column"""
 
     def draw_item(self, _context, layout, _data, seed, _icon, _active_data, _active_property, index):
-        split = layout.split(factor=0.3)
+        split = layout.split(factor=_COLOR_SHARE)
         if seed.has_color:
             split.prop(seed, "color", text="")
         else:
@@ -35,7 +38,11 @@ class Seeds(Step):
             return
         state = obj.reflcolor
         row = layout.row()
-        row.template_list("REFLCOLOR_UL_seeds", "", state, "seeds", state, "active_seed", rows=4)
+        column = row.column(align=True)
+        heads = column.split(factor=_COLOR_SHARE)
+        heads.label(text="Color")
+        heads.label(text="Row, Column")
+        column.template_list("REFLCOLOR_UL_seeds", "", state, "seeds", state, "active_seed", rows=4)
         buttons = row.column(align=True)
         buttons.operator("reflcolor.add_seed", text="", icon="ADD")
         buttons.operator("reflcolor.remove_seed", text="", icon="REMOVE")
