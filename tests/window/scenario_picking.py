@@ -65,7 +65,7 @@ def scenario_pairs_are_picked_in_both_orders(window):
     window.check(
         found[1].photo is not None and found[2].photo is None, "only the first is a pair with the photo's point"
     )
-    yield from window.screenshot("picked")
+    yield from window.screenshot("picked", keep_mouse=True)
     yield from window.key("ESC")
     window.check(not window.scene.reflcolor.picked, "ESC drops the color")
     # Each act was one step: dropping the color, two places, the color, the first color, the first place.
@@ -93,7 +93,7 @@ def scenario_seeds_are_dragged_and_deleted(window):
     yield from window.drag(at_pixel(window, 30, 60), at_pixel(window, 170, 420), shift=True)
     chosen = [seed.select for seed in window.scan.reflcolor.seeds]
     window.equal(chosen, [True, True, True], "Shift-drag selects in a box")
-    yield from window.screenshot("selected")
+    yield from window.screenshot("selected", keep_mouse=True)
     yield from window.key("X")
     window.equal(len(window.scan.reflcolor.seeds), 0, "X deletes what is selected")
     yield from window.undo()
