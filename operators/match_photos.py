@@ -13,12 +13,12 @@ from .notices import tell
 from .properties import MATCH_NAMES, MatchSettings, core_settings
 from .provenance import record_matching
 from .scan_object import scan_reader
-from .seed_list import append_seeds, seeds_of
+from .seed_list import append_seeds, remove_seeds, seeds_of
 from .texts import told
 
 
 class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
-    """Find seeds in the photos of the list; seeds picked by hand stay, and four to six with a photo point help"""
+    """Find seeds in the photos; those picked by hand and locked ones stay, and four to six picked pairs help"""
 
     bl_idname = "reflcolor.match_photos"
     bl_label = "Match Photos"
@@ -40,10 +40,13 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         self._settings = settings
         numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}
         hand = renamed(seeds_of(obj, wanted=lambda seed: seed.reason == "hand"), numbered)
+        kept = renamed(seeds_of(obj, wanted=lambda seed: seed.reason != "hand" and seed.locked), numbered)
 
         def work(progress, cancelled):
             scan = read_scan()
-            matching = match_photos(scan, photos, settings, hand=hand, progress=progress, cancelled=cancelled)
+            matching = match_photos(
+                scan, photos, settings, hand=hand, kept=kept, progress=progress, cancelled=cancelled
+            )
             return matching, draw_matches(scan, photos, matching.seeds)
 
         return work
@@ -55,8 +58,16 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
             self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=self._object_name))
             return
         names = {f"photo {number}": name for number, name in enumerate(self._photo_names, 1)}
-        obj.reflcolor.seeds.clear()
-        append_seeds(obj, renamed(matching.seeds, names))
+        replaced = [i for i, seed in enumerate(obj.reflcolor.seeds) if seed.reason != "hand" and not seed.locked]
+        remove_seeds(obj, replaced)
+        locked = {(seed.row, seed.col) for seed in obj.reflcolor.seeds if seed.locked}
+        places = zip(matching.seeds.rows.tolist(), matching.seeds.cols.tolist(), strict=True)
+        found = [
+            index
+            for index, (place, reason) in enumerate(zip(places, matching.seeds.reason, strict=True))
+            if reason != "hand" and place not in locked
+        ]
+        append_seeds(obj, renamed(matching.seeds.chosen(found), names))
         record_matching(obj, matching, names, self._settings, MATCH_NAMES)
         state = obj.reflcolor
         state.matches_image = write_image(state.matches_image, f"{obj.name} Matches", picture, is_data=False)

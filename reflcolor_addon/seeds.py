@@ -86,6 +86,19 @@ class Seeds:
     def __len__(self):
         return self.rows.size
 
+    def chosen(self, indices):
+        """Return the seeds of these indices, in their order."""
+        indices = np.asarray(indices, np.int64)
+        return Seeds(
+            rows=self.rows[indices],
+            cols=self.cols[indices],
+            rgb=self.rgb[indices],
+            photos=[self.photos[index] for index in indices],
+            photo_xy=self.photo_xy[indices],
+            confidence=self.confidence[indices],
+            reason=[self.reason[index] for index in indices],
+        )
+
     @classmethod
     def load(cls, path, photos=()):
         """Read seeds from a JSON file.
