@@ -81,7 +81,7 @@ def scenario_a_message_leads_to_its_seed(window):
 def _scan_editor(window):
     """Lay out the workspace to pick seeds in, and return the Image Editor that shows the scan; generator."""
     window.call("reflcolor.open_seed_picking")
-    yield from window.until(lambda: len(_image_areas(window)) == 2, 10, "two Image Editors are laid out")
+    yield from window.until(lambda: len(_image_areas(window)) == 2, 30, "two Image Editors are laid out")
     yield 1.0
     return max(_image_areas(window), key=lambda area: area.y)
 
