@@ -129,7 +129,9 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         flips = {"vertical": self.flip_vertical, "horizontal": self.flip_horizontal}
         max_incidence_deg = degrees(self.max_incidence)
         if pair and (len(pair) != 2 or len(paths) != 2):
-            raise ScanError(f"{pair[0].name}: pick two images together, one of range and one of reflectance")
+            raise ScanError(
+                told("{name}: pick two images together, one of range and one of reflectance", name=pair[0].name)
+            )
 
         def work(progress, cancelled):
             files = [describe_pair(*pair, sensor, range_scale=range_scale, swap=swap)] if pair else paths

@@ -23,6 +23,7 @@ from .scan_object import (
     show_colors,
     values_of,
 )
+from .texts import told
 
 LEGEND = "reflcolor_legend"
 
@@ -153,7 +154,7 @@ def show_look(obj, identifier):
         If what it is made of is missing.
     """
     if reason := why_not(obj, identifier):
-        raise ScanError(f"{obj.name}: {reason}")
+        raise ScanError(f"{obj.name}: {told(reason)}")
     look = LOOKS[identifier]
     if look.values is not None:
         _paint(obj, look)

@@ -6,6 +6,7 @@ from bpy.props import BoolProperty
 from . import polls
 from .reports import reported
 from .seed_list import SeedPlace, append_seed, snapped_place
+from .texts import told
 
 
 class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
@@ -30,7 +31,7 @@ class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
         row, col = snapped_place(obj, self.row, self.col) if self.snap else (self.row, self.col)
         place_seed(context, obj, row, col)
         if (row, col) != (self.row, self.col):
-            self.report({"INFO"}, f"No return there; placed at row {row}, column {col}")
+            self.report({"INFO"}, told("No return there; placed at row {row}, column {col}", row=row, col=col))
         return {"FINISHED"}
 
 

@@ -1,6 +1,7 @@
 """Step 4: colorize, and step 5: compare with the truth."""
 
 from ..operators import jobs, live_update
+from ..operators.texts import label
 from ..reflcolor_addon.settings import PRESETS
 from .presets import REFLCOLOR_PT_colorize_presets
 from .step import Step, in_both_editors, in_view
@@ -24,7 +25,9 @@ class Colorize(Step):
         column.prop(settings, "beta")
         job = jobs.running()
         if job is not None:
-            layout.progress(factor=job.fraction, text="Cancelling" if job.stopping else job.name)
+            layout.progress(
+                factor=job.fraction, text=label("Cancelling" if job.stopping else job.name), translate=False
+            )
             layout.label(text="Press ESC to cancel", icon="CANCEL")
             return
         layout.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")

@@ -5,7 +5,7 @@ from pathlib import PurePath
 
 from ..operators.provenance import provenance_text
 from ..operators.scan_object import COLORIZED
-from ..operators.texts import label
+from ..operators.texts import core_line, label
 from ..reflcolor_addon.errors import ReflcolorError
 from ..reflcolor_addon.provenance import outline, parse_provenance
 from .step import Step, in_view
@@ -39,7 +39,7 @@ class Provenance(Step):
             return
         found, problem = _outline(text)
         if found is None:
-            layout.label(text=problem, icon="ERROR")
+            layout.label(text=problem, icon="ERROR", translate=False)
             return
         _draw(layout, found)
         layout.operator("reflcolor.copy_provenance", icon="COPYDOWN")
@@ -77,7 +77,7 @@ def _outline(text):
     try:
         return outline(parse_provenance(text)), None
     except ReflcolorError as error:
-        return None, str(error)
+        return None, core_line(str(error))
 
 
 classes = (in_view(Provenance),)

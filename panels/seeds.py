@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..operators.texts import label
 from .presets import REFLCOLOR_PT_match_presets
 from .step import Step, in_both_editors
 
@@ -79,7 +80,8 @@ class Match(Step):
             pairs = sum(seed.reason == "hand" and seed.photo is not None for seed in obj.reflcolor.seeds)
             column = layout.column(align=True)
             column.label(text="Not recognized? Pick 4 to 6 seeds", icon="INFO")
-            column.label(text=f"with a photo point ({pairs} so far)", icon="BLANK1")
+            said = label("with a photo point ({count} so far)", count=pairs)
+            column.label(text=said, icon="BLANK1", translate=False)
 
 
 class Descriptors(Step):
