@@ -7,8 +7,9 @@ labels and buttons, and what operators report.
 import re
 
 from bpy.app.translations import pgettext_iface, pgettext_rpt, pgettext_tip
+from bpy.app.translations import pgettext_n as n_
 
-NO_COLOR = "photo {photo} has no color at {x:g}, {y:g}; load the photo, pick inside it"
+NO_COLOR = n_("photo {photo} has no color at {x:g}, {y:g}; load the photo, pick inside it")
 _NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.]*\w)")
 
 

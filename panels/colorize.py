@@ -19,7 +19,7 @@ class Colorize(Step):
         settings = context.scene.reflcolor
         row = layout.row(align=True)
         for preset in PRESETS:
-            row.operator("reflcolor.apply_preset", text=preset).preset = preset
+            row.operator("reflcolor.apply_preset", text=label(preset), translate=False).preset = preset
         column = layout.column()
         column.prop(settings, "alpha")
         column.prop(settings, "beta")

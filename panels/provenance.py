@@ -3,6 +3,8 @@
 from functools import lru_cache
 from pathlib import PurePath
 
+from bpy.app.translations import pgettext_n as n_
+
 from ..operators.provenance import provenance_text
 from ..operators.scan_object import COLORIZED
 from ..operators.texts import core_line, label
@@ -12,11 +14,11 @@ from .step import Step, in_view
 
 _ICONS = {"scan": "MESH_GRID", "seeds": "FILE_TEXT", "photo": "IMAGE_DATA"}
 _SOURCES = {
-    "photo": "{count} seeds picked in a photo",
-    "hand": "{count} seeds with a color given by hand",
-    "pose": "{count} seeds found by a photo's camera",
-    "homography": "{count} seeds found by a photo's homography",
-    "appearance": "{count} seeds found by likeness",
+    "photo": n_("{count} seeds picked in a photo"),
+    "hand": n_("{count} seeds with a color given by hand"),
+    "pose": n_("{count} seeds found by a photo's camera"),
+    "homography": n_("{count} seeds found by a photo's homography"),
+    "appearance": n_("{count} seeds found by likeness"),
 }
 _INPUTS_SHOWN = 6
 _HASH_DIGITS = 12

@@ -52,7 +52,7 @@ class Seeds(Step):
         buttons.operator("reflcolor.clear_seeds", text="", icon="TRASH")
         row = layout.row(align=True)
         for which in ("all", "none", "unsure"):
-            row.operator("reflcolor.select_all_seeds", text=which.title()).which = which
+            row.operator("reflcolor.select_all_seeds", text=label(which.title()), translate=False).which = which
         row.operator("reflcolor.delete_seeds", text="", icon="X")
         row = layout.row(align=True)
         row.operator("reflcolor.load_seeds", icon="FILE_FOLDER")
