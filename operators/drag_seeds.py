@@ -6,7 +6,8 @@ from ..reflcolor_addon.picking import clamped_pixel, clamped_point
 from .editors import redraw_editors
 from .images import read_pixel
 from .pointer import object_named
-from .seed_list import selected_seeds, snapped_place
+from .quiet import write_quietly
+from .seed_list import FOUND_BY, choose_seed, selected_seeds, snapped_place
 
 
 class DragSeeds:
@@ -25,7 +26,7 @@ class DragSeeds:
     def __init__(self, side, hit, place):
         seeds = side.obj.reflcolor.seeds
         if not seeds[hit].select:
-            side.obj.reflcolor.active_seed = hit
+            choose_seed(side.obj, hit)
         here = side.marks()[1]
         self._object, self._image, self._is_scan = side.obj.name, side.image.name, side.is_scan
         self._view, self._start = side.view, side.view.to_image(place)
@@ -41,12 +42,12 @@ class DragSeeds:
         for index, (row, col, xy, *_) in self._before.items():
             seed = obj.reflcolor.seeds[index]
             if self._is_scan:
-                seed.row, seed.col = clamped_pixel((col + 0.5 + dx, row + 0.5 + dy), shape)
+                row, col = clamped_pixel((col + 0.5 + dx, row + 0.5 + dy), shape)
+                write_quietly(seed, row=row, col=col)
             else:
-                seed.photo_xy = clamped_point((xy[0] + dx, xy[1] + dy), image.size)
-                color = read_pixel(image, *seed.photo_xy)
-                if color is not None:
-                    seed.color = color
+                point = clamped_point((xy[0] + dx, xy[1] + dy), image.size)
+                color = read_pixel(image, *point)
+                write_quietly(seed, photo_xy=point, **({} if color is None else {"color": color, "has_color": True}))
         redraw_editors()
         return True
 
@@ -55,9 +56,10 @@ class DragSeeds:
         for index in self._before:
             seed = obj.reflcolor.seeds[index]
             if self._is_scan:
-                seed.row, seed.col = snapped_place(obj, seed.row, seed.col)
+                row, col = snapped_place(obj, seed.row, seed.col)
+                write_quietly(seed, row=row, col=col)
             # A person says now where it belongs.
-            seed.reason, seed.confidence = "hand", 1.0
+            write_quietly(seed, reason=FOUND_BY.index("hand"), confidence=1.0)
         redraw_editors()
         return True
 
@@ -66,8 +68,7 @@ class DragSeeds:
         for index, (row, col, xy, color, has_color) in self._before.items() if obj is not None else ():
             if index < len(obj.reflcolor.seeds):
                 seed = obj.reflcolor.seeds[index]
-                seed.row, seed.col, seed.photo_xy, seed.color = row, col, xy, color
-                seed.has_color = has_color
+                write_quietly(seed, row=row, col=col, photo_xy=xy, color=color, has_color=has_color)
         redraw_editors()
 
 

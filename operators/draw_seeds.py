@@ -3,13 +3,16 @@
 import bpy
 import numpy as np
 
+from ..reflcolor_addon.picking import mark_spacing
 from . import drawing, polls
 from .image_sides import side_in
 from .scan_object import seed_vertices
 from .seed_arrays import seed_arrays
 
-# Radius of a mark in pixels of the screen at a scale of 1.
-_SIZE = 8.0
+# Radius of a mark in pixels of the screen at a scale of 1, and that below which it is never: many seeds close together
+# have smaller ones, so that they do not hide the image.
+_SIZE, _LEAST_SIZE = 8.0, 2.5
+_SHARE_OF_SPACING = 0.35
 _handles = []
 # (what is drawn where) -> (key of the seeds, batch): made anew only when the seeds change.
 _batches = {}
@@ -60,8 +63,10 @@ def _batch(place, key, make):
     return _batches[place][1]
 
 
-def _mark_size():
-    return _SIZE * bpy.context.preferences.system.ui_scale
+def _mark_size(count, width, height):
+    """Radius of the marks where so many share so many pixels of the screen."""
+    spacing = mark_spacing(count, width, height) * _SHARE_OF_SPACING
+    return max(_LEAST_SIZE, min(_SIZE, spacing)) * bpy.context.preferences.system.ui_scale
 
 
 def _draw_in_image():
@@ -71,19 +76,19 @@ def _draw_in_image():
         return
     _redraw_partners(context.area, side)
     seeds = seed_arrays(side.obj)
-    points, here = side.marks()
+    points, here = side.marks(seeds)
     _draw_match_lines(context, side, seeds)
     if here.any():
         make = lambda: drawing.mark_batch(  # noqa: E731
             points[here], seeds.colors[here], _opacity(seeds)[here], styles_of(seeds)[here]
         )
-        batch = _batch((side.obj.name, side.image.name), seeds.key(), make)
-        drawing.draw_marks(batch, _mark_size(), side.view)
+        batch = _batch((side.obj.name, side.image.name), seeds.key, make)
+        drawing.draw_marks(batch, _mark_size(len(here), *side.view.extent), side.view)
     settings = context.scene.reflcolor
     if settings.picked and settings.picked_photo == side.image:
         point = np.array([settings.picked_xy[:]])
         batch = drawing.mark_batch(point, [settings.picked_color[:]], [1.0], [drawing.SELECTED | drawing.ACTIVE])
-        drawing.draw_marks(batch, _mark_size(), side.view)
+        drawing.draw_marks(batch, _mark_size(1, *side.view.extent), side.view)
 
 
 def _redraw_partners(area, side):
@@ -112,8 +117,8 @@ def _draw_match_lines(context, side, seeds):
         other = side_in(area, region, context)
         if other is None or other.obj != side.obj or other.is_scan == side.is_scan:
             continue
-        points, there = other.marks()
-        own, present = side.marks()
+        points, there = other.marks(seeds)
+        own, present = side.marks(seeds)
         joined = wanted & there & present
         offset = (region.x - here.x, region.y - here.y)
         opacity = np.where(seeds.selected, 1.0, 0.15 + 0.6 * _opacity(seeds))
@@ -134,5 +139,6 @@ def _draw_in_world():
         places, known = seed_vertices(obj, seeds.rows, seeds.cols)
         return drawing.mark_batch(places[known], seeds.colors[known], _opacity(seeds)[known], styles_of(seeds)[known])
 
-    key = seeds.key(), tuple(map(tuple, obj.matrix_world)), len(obj.data.vertices)
-    drawing.draw_marks(_batch((obj.name, "world"), key, make), _mark_size())
+    key = seeds.key, tuple(map(tuple, obj.matrix_world)), len(obj.data.vertices)
+    size = _mark_size(len(seeds.rows), context.region.width, context.region.height)
+    drawing.draw_marks(_batch((obj.name, "world"), key, make), size)

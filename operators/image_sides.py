@@ -35,12 +35,13 @@ class Side:
     image: bpy.types.Image
     view: ImageView
 
-    def marks(self):
+    def marks(self, seeds=None):
         """Return (S, 2) places of the object's seeds in the image, in its pixels from the top left, and where they are.
 
-        The second array, (S,) bool, is False where a seed has no place in this image.
+        The second array, (S,) bool, is False where a seed has no place in this image. ``seeds`` are the object's
+        SeedArrays, if they were read already.
         """
-        seeds = seed_arrays(self.obj)
+        seeds = seeds or seed_arrays(self.obj)
         if self.is_scan:
             return centers(seeds.rows, seeds.cols), np.ones(len(seeds.rows), bool)
         return seeds.photo_xy, seeds.photo_names == self.image.name

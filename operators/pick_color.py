@@ -8,8 +8,9 @@ from . import polls
 from .editors import redraw_editors, select_only
 from .images import read_pixel
 from .load_photo import list_photo
+from .quiet import write_quietly
 from .reports import reported
-from .seed_list import selected_seeds
+from .seed_list import FOUND_BY, selected_seeds
 from .texts import NO_COLOR, told
 
 
@@ -56,8 +57,8 @@ class REFLCOLOR_OT_pick_color(bpy.types.Operator):
 
 def give_color(seed, color, photo, photo_xy):
     """Color a seed by a person's choice, with the point of the photo that it is from if there is one."""
-    seed.color, seed.photo, seed.photo_xy = color, photo, photo_xy
-    seed.reason, seed.confidence = "hand", 1.0
+    write_quietly(seed, color=tuple(color), photo=photo, photo_xy=tuple(photo_xy), has_color=True)
+    write_quietly(seed, reason=FOUND_BY.index("hand"), confidence=1.0)
 
 
 classes = (REFLCOLOR_OT_pick_color,)

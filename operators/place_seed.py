@@ -4,6 +4,8 @@ import bpy
 from bpy.props import BoolProperty
 
 from . import polls
+from .editors import redraw_editors, select_only
+from .quiet import write_quietly
 from .reports import reported
 from .seed_list import SeedPlace, append_seed, snapped_place
 from .texts import told
@@ -30,6 +32,7 @@ class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
         self.check_place(obj)
         row, col = snapped_place(obj, self.row, self.col) if self.snap else (self.row, self.col)
         place_seed(context, obj, row, col)
+        redraw_editors()
         if (row, col) != (self.row, self.col):
             self.report({"INFO"}, told("No return there; placed at row {row}, column {col}", row=row, col=col))
         return {"FINISHED"}
@@ -39,11 +42,13 @@ def place_seed(context, obj, row, col):
     """Add a seed in the picked color; without one it waits for its color, selected."""
     settings = context.scene.reflcolor
     if not settings.picked:
-        append_seed(obj, row, col, settings.bl_rna.properties["picked_color"].default_array[:]).has_color = False
+        color = settings.bl_rna.properties["picked_color"].default_array[:]
+        write_quietly(append_seed(obj, row, col, color), has_color=False)
         return
-    append_seed(obj, row, col, settings.picked_color, settings.picked_photo, settings.picked_xy).select = False
+    append_seed(obj, row, col, settings.picked_color, settings.picked_photo, settings.picked_xy)
+    select_only(obj.reflcolor.seeds, [])
     # The point of the photo is that of one place only; the color may be that of many.
-    settings.picked_photo = None
+    write_quietly(settings, picked_photo=None)
 
 
 classes = (REFLCOLOR_OT_place_seed,)

@@ -1,12 +1,14 @@
 """When an operator can run, and what to do when it cannot."""
 
+import bpy
+
 from .scan_object import COLORIZED
 from .texts import tip
 
 
 def has_window(cls, context):
     """There is a window, not only a script."""
-    if context.window is None:
+    if bpy.app.background or context.window is None:
         cls.poll_message_set(tip("Run this in Blender's window"))
         return False
     return True

@@ -2,7 +2,13 @@
 
 from dataclasses import dataclass
 
+import bpy
 import numpy as np
+
+from .seed_list import FOUND_BY
+
+# Object -> (what was read in bulk, and of how many images; the names of the photos, which cannot be).
+_photo_names = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +26,8 @@ class SeedArrays:
     confidence : (S,) float32
     active : int
         Index of the one that is chosen in the list.
+    key : int
+        The same as long as nothing of this has changed.
     """
 
     rows: np.ndarray
@@ -33,33 +41,32 @@ class SeedArrays:
     by_hand: np.ndarray
     confidence: np.ndarray
     active: int
-
-    def key(self):
-        """Return a value that is the same as long as nothing of this has changed."""
-        arrays = (array for array in vars(self).values() if isinstance(array, np.ndarray))
-        return hash((self.active, *(array.tobytes() for array in arrays)))
+    key: int
 
 
 def seed_arrays(obj):
     """Return the object's seeds as SeedArrays."""
-    seeds = obj.reflcolor.seeds
+    seeds, active = obj.reflcolor.seeds, obj.reflcolor.active_seed
 
     def column(name, dtype, size=1):
         values = np.empty(len(seeds) * size, dtype)
         seeds.foreach_get(name, values)
         return values if size == 1 else values.reshape(-1, size)
 
-    return SeedArrays(
-        rows=column("row", np.int32),
-        cols=column("col", np.int32),
-        colors=column("color", np.float32, 3),
-        photo_xy=column("photo_xy", np.float32, 2),
-        photo_names=np.array([seed.photo.name if seed.photo else "" for seed in seeds], str),
-        selected=column("select", bool),
-        locked=column("locked", bool),
-        has_color=column("has_color", bool),
-        # The first choice of the property; the others are ways of finding seeds in photos.
-        by_hand=column("reason", np.int32) == 0,
-        confidence=column("confidence", np.float32),
-        active=obj.reflcolor.active_seed,
-    )
+    columns = {
+        "rows": column("row", np.int32),
+        "cols": column("col", np.int32),
+        "colors": column("color", np.float32, 3),
+        "photo_xy": column("photo_xy", np.float32, 2),
+        "selected": column("select", bool),
+        "locked": column("locked", bool),
+        "has_color": column("has_color", bool),
+        "by_hand": column("reason", np.int32) == FOUND_BY.index("hand"),
+        "confidence": column("confidence", np.float32),
+    }
+    key = hash((active, *(values.tobytes() for values in columns.values())))
+    named = _photo_names.get(obj.name)
+    state = key, len(bpy.data.images), len(bpy.data.objects)
+    if named is None or named[0] != state:
+        named = _photo_names[obj.name] = state, np.array([seed.photo.name if seed.photo else "" for seed in seeds], str)
+    return SeedArrays(**columns, photo_names=named[1], active=active, key=key)

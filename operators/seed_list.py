@@ -6,8 +6,13 @@ from bpy.props import IntProperty
 
 from ..reflcolor_addon.errors import SeedsError
 from ..reflcolor_addon.seeds import Seeds, nearest_valid
+from .editors import select_only
+from .quiet import write_quietly
 from .scan_object import grid_indices
 from .texts import told
+
+# The choices of a seed's ``reason``, by their numbers.
+FOUND_BY = ("hand", "pose", "homography", "appearance")
 
 
 class SeedPlace:
@@ -63,17 +68,17 @@ def seeds_of(obj, *, wanted=lambda seed: True):
 
 
 def append_seed(obj, row, col, rgb, photo=None, photo_xy=(0.0, 0.0)):
-    """Add a seed to the object and select it; ``rgb`` is of 0..1."""
-    seed = _add(obj.reflcolor.seeds, row, col, rgb, photo, photo_xy)
-    obj.reflcolor.active_seed = len(obj.reflcolor.seeds) - 1
+    """Add a seed to the object and select it, and no other; ``rgb`` is of 0..1."""
+    seed = obj.reflcolor.seeds.add()
+    write_quietly(seed, row=row, col=col, color=tuple(rgb), photo=photo, photo_xy=tuple(photo_xy))
+    choose_seed(obj, len(obj.reflcolor.seeds) - 1)
     return seed
 
 
-def _add(seeds, row, col, rgb, photo, photo_xy):
-    seed = seeds.add()
-    seed.row, seed.col, seed.color = row, col, rgb
-    seed.photo, seed.photo_xy = photo, photo_xy
-    return seed
+def choose_seed(obj, index):
+    """Make a seed the one that is chosen in the list, and select no other."""
+    write_quietly(obj.reflcolor, active_seed=index)
+    select_only(obj.reflcolor.seeds, [index])
 
 
 def append_seeds(obj, seeds):
@@ -83,10 +88,17 @@ def append_seeds(obj, seeds):
     for row, col, rgb, xy, confidence, photo, reason in zip(
         *(column.tolist() for column in columns), seeds.photos, seeds.reason, strict=True
     ):
-        seed = _add(listed, row, col, rgb, bpy.data.images.get(photo) if photo else None, xy)
-        seed.reason = reason or "hand"
-        seed.confidence = 1.0 if np.isnan(confidence) else confidence
-    obj.reflcolor.active_seed = len(listed) - 1
+        write_quietly(
+            listed.add(),
+            row=row,
+            col=col,
+            color=rgb,
+            photo=bpy.data.images.get(photo) if photo else None,
+            photo_xy=xy,
+            reason=FOUND_BY.index(reason or "hand"),
+            confidence=1.0 if np.isnan(confidence) else confidence,
+        )
+    choose_seed(obj, len(listed) - 1)
 
 
 def remove_seeds(obj, indices):
@@ -94,7 +106,7 @@ def remove_seeds(obj, indices):
     state = obj.reflcolor
     for index in sorted(indices, reverse=True):
         state.seeds.remove(index)
-    state.active_seed = max(0, min([state.active_seed, len(state.seeds) - 1]))
+    choose_seed(obj, max(0, min([state.active_seed, len(state.seeds) - 1])))
 
 
 def selected_seeds(obj):

@@ -79,9 +79,7 @@ def _open(number, before, object_name):
 def _lay_out(number):
     """One 3D View at the right, its sidebar as high as the window, and two Image Editors one above the other."""
     for _ in range(_TRIES):
-        areas = sorted(
-            _window(number).screen.areas, key=lambda area: (area.type == "VIEW_3D", area.width * area.height)
-        )
+        areas = sorted(_window(number).screen.areas, key=lambda area: area.width * area.height)
         if len(areas) == 1:
             break
         for area in areas[:-1]:
@@ -89,14 +87,13 @@ def _lay_out(number):
                 break
         else:
             break
-        yield 0.01
     area = max(_window(number).screen.areas, key=lambda area: area.width * area.height)
-    area.ui_type = "VIEW_3D"
-    yield 0.01
+    area.ui_type = "IMAGE_EDITOR"
     _apply(number, area, bpy.ops.screen.area_split, direction="VERTICAL", factor=_IMAGES_SHARE)
+    # Where areas are is known once they were drawn; images are drawn more quickly than the mesh.
     yield 0.01
+    max(_window(number).screen.areas, key=lambda area: area.x).ui_type = "VIEW_3D"
     left = min(_window(number).screen.areas, key=lambda area: area.x)
-    left.ui_type = "IMAGE_EDITOR"
     _apply(number, left, bpy.ops.screen.area_split, direction="HORIZONTAL", factor=0.5)
     yield 0.1
 

@@ -5,8 +5,9 @@ from bpy.props import BoolProperty
 
 from . import polls
 from .editors import redraw_editors
+from .quiet import write_quietly
 from .reports import reported
-from .seed_list import SeedChoice
+from .seed_list import SeedChoice, choose_seed
 
 
 class REFLCOLOR_OT_select_seed(SeedChoice, bpy.types.Operator):
@@ -29,9 +30,9 @@ class REFLCOLOR_OT_select_seed(SeedChoice, bpy.types.Operator):
         settings, seed = context.scene.reflcolor, obj.reflcolor.seeds[index]
         settings.picked, settings.picked_photo = False, None
         if self.extend:
-            seed.select = not seed.select
+            write_quietly(seed, select=not seed.select)
         else:
-            obj.reflcolor.active_seed = index
+            choose_seed(obj, index)
         redraw_editors()
         return {"FINISHED"}
 

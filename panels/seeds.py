@@ -7,7 +7,7 @@ from .presets import REFLCOLOR_PT_match_presets
 from .step import Step, in_both_editors
 
 # Of the list's width.
-_COLOR_SHARE = 0.3
+_COLOR_SHARE = 0.2
 
 
 class REFLCOLOR_UL_seeds(bpy.types.UIList):
@@ -18,7 +18,7 @@ class REFLCOLOR_UL_seeds(bpy.types.UIList):
         if seed.has_color:
             split.prop(seed, "color", text="")
         else:
-            split.label(text="No Color", icon="QUESTION")
+            split.label(text="", icon="QUESTION")
         row = split.row()
         row.label(text=f"{index + 1}:  {seed.row}, {seed.col}", translate=False)
         if seed.reason != "hand":

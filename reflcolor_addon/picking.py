@@ -34,6 +34,11 @@ class ImageView:
         corner = tuple(a + span * margin for a, span in zip(first, spans, strict=True))
         return cls(tuple(size), corner, tuple(span / side for span, side in zip(spans, size, strict=True)))
 
+    @property
+    def extent(self):
+        """(width, height) of the image in pixels of the region."""
+        return tuple(side * scale for side, scale in zip(self.size, self.scale, strict=True))
+
     def to_region(self, xy):
         """Return where (..., 2) points of the image, in pixels from its top left corner, are in the region."""
         xy = np.asarray(xy, np.float64)
@@ -135,6 +140,11 @@ def beads(start, end, spacing):
     length = float(np.hypot(*way))
     steps = np.arange(1, int(length / spacing) + 1) * spacing
     return start + steps[:, None] * (way / max(length, 1e-12))
+
+
+def mark_spacing(count, width, height):
+    """Return how far apart marks are, in pixels, if so many lie evenly in an area of so many pixels."""
+    return float(np.sqrt(max(width * height, 0) / max(count, 1)))
 
 
 def corner_nearest(corners, place):

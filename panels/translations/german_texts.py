@@ -19,7 +19,6 @@ _PANELS = {
     "Needs a scan": "Braucht einen Scan",
     "Needs seeds": "Braucht Saatpunkte",
     "Next Seed": "Nächster Saatpunkt",
-    "No Color": "Keine Farbe",
     "No seed reaches": "Von keinem erreicht",
     "None in the scan": "Nicht im Scan",
     "Not known": "Nicht bekannt",

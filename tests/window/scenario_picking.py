@@ -12,7 +12,7 @@ def open_picking(window):
     window.call("reflcolor.load_photo", filepath=window.example("photo.jpg"))
     yield from window.show_sidebar()
     yield from window.click_button("reflcolor.open_seed_picking")
-    yield from window.until(lambda: len(image_areas(window)) == 2, 10, "two Image Editors are laid out")
+    yield from window.until(lambda: len(image_areas(window)) == 2, 40, "two Image Editors are laid out")
     yield 1.0
 
 
