@@ -15,6 +15,16 @@ KINDS = {
 }
 
 
+@pytest.fixture(autouse=True)
+def labels(blender):
+    """Blender writes the name of the preset that was used last into the label of its menu."""
+    menus = [getattr(blender.types, f"REFLCOLOR_PT_{kind}_presets") for kind in KINDS]
+    before = [menu.bl_label for menu in menus]
+    yield
+    for menu, label in zip(menus, before, strict=True):
+        menu.bl_label = label
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_settings_are_kept_taken_over_and_removed(blender, kind):
     act = getattr(blender.ops.reflcolor, f"add_{kind}_preset")
