@@ -3,6 +3,7 @@
 import bpy
 
 from . import (
+    add_preset,
     add_seed,
     apply_preset,
     clear_seeds,
@@ -64,6 +65,7 @@ _MODULES = (
     save_seeds,
     match_photos,
     apply_preset,
+    add_preset,
     colorize,
     evaluate,
     show_look,

@@ -8,6 +8,7 @@ from . import polls
 from .images import read_pixel
 from .reports import reported
 from .seed_list import SeedPlace, append_seed
+from .texts import NO_COLOR, told
 
 
 class REFLCOLOR_OT_add_seed(SeedPlace, bpy.types.Operator):
@@ -56,7 +57,7 @@ class REFLCOLOR_OT_add_seed(SeedPlace, bpy.types.Operator):
             color = read_pixel(photo, *self.photo_xy) if photo is not None else None
             if color is None:
                 x, y = self.photo_xy
-                raise SeedsError(f"photo {self.photo} has no color at {x:g}, {y:g}; load the photo, pick inside it")
+                raise SeedsError(told(NO_COLOR, photo=self.photo, x=x, y=y))
         append_seed(obj, self.row, self.col, color, photo, self.photo_xy)
         return {"FINISHED"}
 

@@ -5,6 +5,7 @@ from bpy.props import EnumProperty
 
 from ..reflcolor_addon.settings import PRESETS, Settings
 from .properties import take_over
+from .texts import tip
 
 _DESCRIPTIONS = {
     "Paper": "The method as published",
@@ -28,7 +29,7 @@ class REFLCOLOR_OT_apply_preset(bpy.types.Operator):
     @classmethod
     def description(cls, _context, properties):
         """Tell of a button what its own preset is."""
-        return _DESCRIPTIONS[properties.preset]
+        return tip(_DESCRIPTIONS[properties.preset])
 
     def execute(self, context):
         take_over(context.scene.reflcolor, Settings.preset(self.preset))

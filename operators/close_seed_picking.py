@@ -3,6 +3,7 @@
 import bpy
 
 from . import seed_picking
+from .texts import tip
 
 
 class REFLCOLOR_OT_close_seed_picking(bpy.types.Operator):
@@ -15,7 +16,7 @@ class REFLCOLOR_OT_close_seed_picking(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         if not seed_picking.is_open(context):
-            cls.poll_message_set("Open Seed Picking first")
+            cls.poll_message_set(tip("Open Seed Picking first"))
             return False
         return True
 

@@ -4,6 +4,7 @@ import bpy
 
 from . import polls
 from .provenance import provenance_text
+from .texts import tip
 
 
 class REFLCOLOR_OT_copy_provenance(bpy.types.Operator):
@@ -18,7 +19,7 @@ class REFLCOLOR_OT_copy_provenance(bpy.types.Operator):
         if not polls.has_scan(cls, context):
             return False
         if provenance_text(polls.scan_object(context)) is None:
-            cls.poll_message_set("Colorize the scan first")
+            cls.poll_message_set(tip("Colorize the scan first"))
             return False
         return True
 

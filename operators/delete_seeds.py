@@ -5,6 +5,7 @@ import bpy
 from . import polls
 from .editors import redraw_editors
 from .seed_list import remove_seeds, selected_seeds
+from .texts import told
 
 
 class REFLCOLOR_OT_delete_seeds(bpy.types.Operator):
@@ -23,7 +24,7 @@ class REFLCOLOR_OT_delete_seeds(bpy.types.Operator):
         doomed = selected_seeds(obj)
         remove_seeds(obj, doomed)
         redraw_editors()
-        self.report({"INFO"}, f"Deleted {len(doomed)} seeds")
+        self.report({"INFO"}, told("Deleted {count} seeds", count=len(doomed)))
         return {"FINISHED"}
 
 

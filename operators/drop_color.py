@@ -3,6 +3,7 @@
 import bpy
 
 from .editors import redraw_editors
+from .texts import tip
 
 
 class REFLCOLOR_OT_drop_color(bpy.types.Operator):
@@ -15,7 +16,7 @@ class REFLCOLOR_OT_drop_color(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         if not context.scene.reflcolor.picked:
-            cls.poll_message_set("Pick a color first")
+            cls.poll_message_set(tip("Pick a color first"))
             return False
         return True
 

@@ -53,7 +53,9 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
             # Black is what scanners write where they saw no color.
             known &= truth.any(axis=-1)
         else:
-            raise ScanError(f"{obj.name}: the scan came without colors; choose an image of its true colors")
+            raise ScanError(
+                told("{name}: the scan came without colors; choose an image of its true colors", name=obj.name)
+            )
         return lambda progress, cancelled: (evaluate(rgb, truth, known), error_map(rgb, truth, known)[place])
 
     def finish(self, context, result):
@@ -80,7 +82,7 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
             return obj.reflcolor.truth_image
         image = bpy.data.images.get(self.truth)
         if image is None:
-            raise ScanError(f"there is no image {self.truth}; open it first")
+            raise ScanError(told("there is no image {name}; open it first", name=self.truth))
         return image
 
 
@@ -88,8 +90,16 @@ def _pixels(image, obj):
     state, (width, height) = obj.reflcolor, image.size
     if (width, height) != (state.cols, state.rows):
         raise ScanError(
-            f"{image.name}: is {width} x {height} pixels, but the scan {obj.name} has {state.cols} columns x "
-            f"{state.rows} rows; they must be the same"
+            told(
+                "{image}: is {width} x {height} pixels, but the scan {name} has {cols} columns x {rows} rows; "
+                "they must be the same",
+                image=image.name,
+                width=width,
+                height=height,
+                name=obj.name,
+                cols=state.cols,
+                rows=state.rows,
+            )
         )
     return read_image(image)
 

@@ -20,6 +20,7 @@ from .notices import tell
 from .provenance import record_import
 from .scan_object import add_scan_object
 from .texts import told
+from .viewpoint import show_first
 
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
 
@@ -128,7 +129,9 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         flips = {"vertical": self.flip_vertical, "horizontal": self.flip_horizontal}
         max_incidence_deg = degrees(self.max_incidence)
         if pair and (len(pair) != 2 or len(paths) != 2):
-            raise ScanError(f"{pair[0].name}: pick two images together, one of range and one of reflectance")
+            raise ScanError(
+                told("{name}: pick two images together, one of range and one of reflectance", name=pair[0].name)
+            )
 
         def work(progress, cancelled):
             files = [describe_pair(*pair, sensor, range_scale=range_scale, swap=swap)] if pair else paths
@@ -146,10 +149,13 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         return work
 
     def finish(self, context, result):
+        is_first = not any(obj.reflcolor.rows for obj in bpy.data.objects)
         for scan, mesh_data, entry, inputs in result:
             obj = add_scan_object(context, scan, mesh_data)
             record_import(obj, entry, inputs, scan.warnings)
             tell(self, obj, told("Imported {name}", name=scan.name), scan.warnings)
+        if is_first:
+            show_first(context, count=len(result))
 
     def _sensor_model(self):
         if self.sensor == "pinhole":

@@ -6,6 +6,7 @@ import bpy
 
 from ..reflcolor_addon.errors import Cancelled
 from .reports import reported
+from .texts import core_line, label, told
 
 _running = []
 
@@ -97,7 +98,7 @@ class JobOperator:
         if bpy.app.background or context.window is None:
             return self.run_blocking(context)
         if running() is not None:
-            self.report({"WARNING"}, f"{running().name} is still running; press ESC to cancel it")
+            self.report({"WARNING"}, told("{name} is still running; press ESC to cancel it", name=told(running().name)))
             return {"CANCELLED"}
         self._job = Job(self.job_name, self.prepare(context))
         _running.append(self._job)
@@ -129,7 +130,7 @@ class JobOperator:
     def _outcome(self, context):
         error = self._job.error
         if isinstance(error, Cancelled) or (error is None and self._job.stopping):
-            self.report({"INFO"}, f"{self.job_name} cancelled; nothing was changed")
+            self.report({"INFO"}, told("{name} cancelled; nothing was changed", name=told(self.job_name)))
             return {"CANCELLED"}
         if error is not None:
             raise error
@@ -139,8 +140,9 @@ class JobOperator:
     def _show(self, context):
         job = self._job
         if context.workspace is not None:
-            text = "cancelling" if job.stopping else f"{job.fraction:.0%}  {job.text}   |   ESC: Cancel"
-            context.workspace.status_text_set(f"{job.name}:  {text}")
+            going_on = f"{job.fraction:.0%}  {core_line(job.text)}   |   {label('ESC: Cancel')}"
+            text = label("Cancelling") if job.stopping else going_on
+            context.workspace.status_text_set(f"{label(job.name)}:  {text}")
         _redraw_views(context)
 
     def _end(self, context):

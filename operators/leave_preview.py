@@ -3,6 +3,7 @@
 import bpy
 
 from . import live_update
+from .texts import tip
 
 
 class REFLCOLOR_OT_leave_preview(bpy.types.Operator):
@@ -15,7 +16,7 @@ class REFLCOLOR_OT_leave_preview(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         if not context.window_manager.reflcolor.live_update:
-            cls.poll_message_set("Turn Live Update on first")
+            cls.poll_message_set(tip("Turn Live Update on first"))
             return False
         return True
 

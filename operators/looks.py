@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from bpy.app.translations import pgettext_n as n_
 
 from ..reflcolor_addon.colormaps import limits_of, painted, region_colors
 from ..reflcolor_addon.errors import ScanError
@@ -23,6 +24,7 @@ from .scan_object import (
     show_colors,
     values_of,
 )
+from .texts import told
 
 LEGEND = "reflcolor_legend"
 
@@ -70,7 +72,7 @@ LOOKS = {
         description="The gray of the reflectance, as the scanner measured it; renders and exports take it, too",
         icon="IMAGE_ZDEPTH",
         colors=GRAY,
-        missing="Import it again",
+        missing=n_("Import it again"),
         result=True,
     ),
     "colorized": Look(
@@ -78,7 +80,7 @@ LOOKS = {
         description="The colors that were spread from the seeds; renders and exports take them, too",
         icon="COLOR",
         colors=COLORIZED,
-        missing="Colorize first",
+        missing=n_("Colorize first"),
         result=True,
     ),
     "scanned": Look(
@@ -86,14 +88,14 @@ LOOKS = {
         description="The colors that came with the scan",
         icon="CAMERA_DATA",
         colors=SCANNED,
-        missing="None in the scan",
+        missing=n_("None in the scan"),
     ),
     "confidence": Look(
         title="Confidence",
         description="How far to trust each color: 1 at the seeds, falling with the distance from them",
         icon="CHECKMARK",
         colors="Confidence Map",
-        missing="Colorize first",
+        missing=n_("Colorize first"),
         values=CONFIDENCE,
         gradient="viridis",
         limits=(0.0, 1.0),
@@ -103,7 +105,7 @@ LOOKS = {
         description="The regions that are nearest to each seed, in a color of their own that is not the seed's",
         icon="STICKY_UVS_LOC",
         colors="Nearest Seed Map",
-        missing="Colorize first",
+        missing=n_("Colorize first"),
         values=NEAREST_SEED,
         dtype=np.int32,
     ),
@@ -112,7 +114,7 @@ LOOKS = {
         description="The distance from the scanner",
         icon="DRIVER_DISTANCE",
         colors="Range Map",
-        missing="Import it again",
+        missing=n_("Import it again"),
         values="range",
         gradient="turbo",
         unit="m",
@@ -122,7 +124,7 @@ LOOKS = {
         description="The difference from the true colors, where they are known, in CIEDE2000 with the luminance apart",
         icon="DRIVER_ROTATIONAL_DIFFERENCE",
         colors="Error Map",
-        missing="Evaluate first",
+        missing=n_("Evaluate first"),
         values=ERROR,
         gradient="inferno",
         unit="CIEDE2000",
@@ -153,7 +155,7 @@ def show_look(obj, identifier):
         If what it is made of is missing.
     """
     if reason := why_not(obj, identifier):
-        raise ScanError(f"{obj.name}: {reason}")
+        raise ScanError(f"{obj.name}: {told(reason)}")
     look = LOOKS[identifier]
     if look.values is not None:
         _paint(obj, look)

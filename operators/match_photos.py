@@ -35,7 +35,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         self._photo_names = [photo.image.name for photo in listed if photo.image is not None]
         photos = [read_pixels(bpy.data.images[name]) for name in self._photo_names]
         if any(pixels is None for pixels in photos):
-            raise SeedsError("a photo of the list cannot be read; remove it and load it again")
+            raise SeedsError(told("a photo of the list cannot be read; remove it and load it again"))
         read_scan, settings = scan_reader(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
         self._settings = settings
         numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}

@@ -5,7 +5,7 @@ import re
 import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
 
-from .texts import told
+from .texts import core_line, told
 
 # More than a person reads; the first ones tell what is wrong.
 MAX_NOTICES = 200
@@ -39,13 +39,13 @@ def tell(operator, obj, result, warnings, seeds=None, details=()):
     notices = obj.reflcolor.notices
     notices.clear()
     for warning in warnings:
-        operator.report({"WARNING"}, warning)
+        operator.report({"WARNING"}, core_line(warning))
     operator.report({"INFO"}, result)
     for text in (result, *details):
         notices.add().text = text
     for warning in warnings[:MAX_NOTICES]:
         notice = notices.add()
-        notice.text, notice.warning = warning, True
+        notice.text, notice.warning = core_line(warning), True
         meant = _SEED.match(warning)
         if meant and seeds is not None and 1 <= int(meant[1]) <= len(seeds):
             notice.row, notice.col = (int(places[int(meant[1]) - 1]) for places in (seeds.rows, seeds.cols))

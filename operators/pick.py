@@ -5,6 +5,7 @@ from bpy.props import EnumProperty
 
 from ..reflcolor_addon.picking import clamped_point
 from .image_sides import event_side
+from .texts import told
 
 
 class REFLCOLOR_OT_pick(bpy.types.Operator):
@@ -31,7 +32,7 @@ class REFLCOLOR_OT_pick(bpy.types.Operator):
             self.report({"INFO"}, "Import a scan, and show its reflectance image or a photo here")
             return {"CANCELLED"}
         if context.view_layer.objects.get(side.obj.name) is None:
-            self.report({"WARNING"}, f"{side.obj.name} is not in this view layer")
+            self.report({"WARNING"}, told("{name} is not in this view layer", name=side.obj.name))
             return {"CANCELLED"}
         context.view_layer.objects.active = side.obj
         hit = side.hit(place) if self.act != "sample" else None

@@ -12,6 +12,7 @@ from .load_photo import list_photo
 from .quiet import point_to, write_quietly
 from .reports import reported
 from .seed_list import FOUND_BY, selected_seeds
+from .texts import NO_COLOR, told
 
 
 class REFLCOLOR_OT_pick_color(bpy.types.Operator):
@@ -40,7 +41,7 @@ class REFLCOLOR_OT_pick_color(bpy.types.Operator):
         color = read_pixel(image, *self.photo_xy) if image is not None else None
         if color is None:
             x, y = self.photo_xy
-            raise SeedsError(f"photo {self.photo} has no color at {x:g}, {y:g}; load the photo, pick inside it")
+            raise SeedsError(told(NO_COLOR, photo=self.photo, x=x, y=y))
         selected = [] if self.sample_only or settings.picked else selected_seeds(obj)
         for seed in (obj.reflcolor.seeds[index] for index in selected):
             give_color(seed, color, image if len(selected) == 1 else None, self.photo_xy)

@@ -10,6 +10,7 @@ from . import polls
 from .image_sides import HIT_RADIUS
 from .scan_object import seed_vertices
 from .seed_arrays import seed_arrays
+from .texts import told
 
 
 class REFLCOLOR_OT_pick_in_view(bpy.types.Operator):
@@ -34,7 +35,7 @@ class REFLCOLOR_OT_pick_in_view(bpy.types.Operator):
             return bpy.ops.reflcolor.select_seed("EXEC_DEFAULT", True, index=hit)
         vertex = _vertex_at(context, obj, place)
         if vertex is None:
-            self.report({"INFO"}, f"Click on {obj.name}")
+            self.report({"INFO"}, told("Click on {name}", name=obj.name))
             return {"CANCELLED"}
         pixel = {name: obj.data.attributes[f"grid_{name}"].data[vertex].value for name in ("row", "col")}
         return bpy.ops.reflcolor.place_seed("EXEC_DEFAULT", True, **pixel)

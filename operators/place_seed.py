@@ -9,6 +9,7 @@ from .live_update import redraw_seeds
 from .quiet import point_to, write_quietly
 from .reports import reported
 from .seed_list import SeedPlace, append_seed, snapped_place
+from .texts import told
 
 
 class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
@@ -34,7 +35,7 @@ class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
         place_seed(context, obj, row, col)
         redraw_seeds(obj)
         if (row, col) != (self.row, self.col):
-            self.report({"INFO"}, f"No return there; placed at row {row}, column {col}")
+            self.report({"INFO"}, told("No return there; placed at row {row}, column {col}", row=row, col=col))
         return {"FINISHED"}
 
 

@@ -3,6 +3,8 @@
 import bpy
 from bpy.props import BoolProperty
 
+from .texts import label
+
 _following = []
 
 
@@ -39,7 +41,7 @@ class PointerOperator:
                 return {"CANCELLED"}
         _following.append(self)
         context.window_manager.modal_handler_add(self)
-        context.workspace.status_text_set(f"{self.hint}   |   ESC: Cancel")
+        context.workspace.status_text_set(f"{label(self.hint)}   |   {label('ESC: Cancel')}")
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):

@@ -3,12 +3,13 @@
 import bpy
 
 from .scan_object import COLORIZED
+from .texts import tip
 
 
 def has_window(cls, context):
     """There is a window, not only a script."""
     if bpy.app.background or context.window is None:
-        cls.poll_message_set("Run this in Blender's window")
+        cls.poll_message_set(tip("Run this in Blender's window"))
         return False
     return True
 
@@ -16,7 +17,7 @@ def has_window(cls, context):
 def has_scan(cls, context):
     """A scan's object is active."""
     if scan_object(context) is None:
-        cls.poll_message_set("Import a scan, or select one, first")
+        cls.poll_message_set(tip("Import a scan, or select one, first"))
         return False
     return True
 
@@ -26,10 +27,10 @@ def has_editable_scan(cls, context):
     if not has_scan(cls, context):
         return False
     if scan_object(context).data.library is not None:
-        cls.poll_message_set("The mesh is linked from another file; make it local first")
+        cls.poll_message_set(tip("The mesh is linked from another file; make it local first"))
         return False
     if scan_object(context).mode == "EDIT":
-        cls.poll_message_set("Leave Edit Mode first")
+        cls.poll_message_set(tip("Leave Edit Mode first"))
         return False
     return True
 
@@ -39,7 +40,7 @@ def has_seeds(cls, context):
     if not has_scan(cls, context):
         return False
     if not scan_object(context).reflcolor.seeds:
-        cls.poll_message_set("Add a seed first")
+        cls.poll_message_set(tip("Add a seed first"))
         return False
     return True
 
@@ -49,7 +50,7 @@ def has_colored_seeds(cls, context):
     if not has_seeds(cls, context):
         return False
     if not any(seed.has_color for seed in scan_object(context).reflcolor.seeds):
-        cls.poll_message_set("Give a seed its color first")
+        cls.poll_message_set(tip("Give a seed its color first"))
         return False
     return True
 
@@ -59,7 +60,7 @@ def has_selected_seeds(cls, context):
     if not has_seeds(cls, context):
         return False
     if not any(seed.select for seed in scan_object(context).reflcolor.seeds):
-        cls.poll_message_set("Select a seed first")
+        cls.poll_message_set(tip("Select a seed first"))
         return False
     return True
 
@@ -69,7 +70,7 @@ def has_colors(cls, context):
     if not has_scan(cls, context):
         return False
     if COLORIZED not in scan_object(context).data.color_attributes:
-        cls.poll_message_set("Colorize the scan first")
+        cls.poll_message_set(tip("Colorize the scan first"))
         return False
     return True
 
@@ -77,7 +78,7 @@ def has_colors(cls, context):
 def has_photos(cls, context):
     """There is a photo on the list."""
     if not context.scene.reflcolor.photos:
-        cls.poll_message_set("Load a photo first")
+        cls.poll_message_set(tip("Load a photo first"))
         return False
     return True
 

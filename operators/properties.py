@@ -69,7 +69,7 @@ class ReflcolorSeed(bpy.types.PropertyGroup):
 class ReflcolorPhoto(bpy.types.PropertyGroup):
     """A photo that colors are taken from"""
 
-    image: PointerProperty(name="Image", type=bpy.types.Image)
+    image: PointerProperty(name="Image", description="The photo's picture", type=bpy.types.Image)
     note: StringProperty(name="Note", description="What became of the photo when it was matched")
 
 
@@ -79,15 +79,23 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     rows: IntProperty(name="Rows", description="Height of the scan's grid in pixels")
     cols: IntProperty(name="Columns", description="Width of the scan's grid in pixels")
     source: StringProperty(name="Source", description="File that the scan was read from")
-    seeds: CollectionProperty(name="Seeds", type=ReflcolorSeed)
+    seeds: CollectionProperty(name="Seeds", description="Pixels whose color is known", type=ReflcolorSeed)
     active_seed: IntProperty(
         name="Active Seed", description="Seed that is selected in the list", update=_seed_was_chosen
     )
-    reflectance_image: PointerProperty(name="Reflectance Image", type=bpy.types.Image)
-    range_image: PointerProperty(name="Range Image", type=bpy.types.Image)
-    colorized_image: PointerProperty(name="Colorized Image", type=bpy.types.Image)
-    preview_image: PointerProperty(name="Live Preview", type=bpy.types.Image)
-    matches_image: PointerProperty(name="Matches", type=bpy.types.Image)
+    reflectance_image: PointerProperty(
+        name="Reflectance Image", description="The scan's reflectance as a picture", type=bpy.types.Image
+    )
+    range_image: PointerProperty(name="Range Image", description="The scan's range as a picture", type=bpy.types.Image)
+    colorized_image: PointerProperty(
+        name="Colorized Image", description="The colors that were spread from the seeds", type=bpy.types.Image
+    )
+    preview_image: PointerProperty(
+        name="Live Preview", description="Colors that follow the seeds until they are kept", type=bpy.types.Image
+    )
+    matches_image: PointerProperty(
+        name="Matches", description="Where each seed's color comes from", type=bpy.types.Image
+    )
     notices: CollectionProperty(name="Messages", description="What the last operation had to say", type=ReflcolorNotice)
     active_notice: IntProperty(name="Active Message", description="Message that is selected in the list")
     truth_image: PointerProperty(
@@ -102,7 +110,7 @@ _PAPER = settings.Settings()
 _COLOR_SPACE_ITEMS = (
     ("ycbcr", "YCbCr", "Luminance and two color differences, ITU-R BT.601; the paper's choice"),
     ("yuv", "YUV", "Luminance and two color differences, as in analog television"),
-    ("lalphabeta", "l-alpha-beta", "Logarithms of cone responses, decorrelated over natural images"),
+    ("lalphabeta", "L-Alpha-Beta", "Logarithms of cone responses, decorrelated over natural images"),
     ("cielab", "CIELAB", "Perceptual lightness and two opponent colors"),
 )
 _NEIGHBOR_ITEMS = (
@@ -248,7 +256,7 @@ def _color_was_picked(settings, _context):
 class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup):
     """Settings of the next colorization in this scene"""
 
-    photos: CollectionProperty(name="Photos", type=ReflcolorPhoto)
+    photos: CollectionProperty(name="Photos", description="Photos that colors are taken from", type=ReflcolorPhoto)
     picked: BoolProperty(name="Picked", description="The next seed is given the picked color")
     picked_color: FloatVectorProperty(
         name="Picked Color",
@@ -260,8 +268,12 @@ class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup
         default=(0.5, 0.5, 0.5),
         update=_color_was_picked,
     )
-    picked_photo: PointerProperty(name="Picked In", type=bpy.types.Image)
-    picked_xy: FloatVectorProperty(name="Picked At", size=2)
+    picked_photo: PointerProperty(
+        name="Picked In", description="Photo that the picked color is from", type=bpy.types.Image
+    )
+    picked_xy: FloatVectorProperty(
+        name="Picked At", description="Place in that photo, in pixels from its top left corner", size=2
+    )
     stroke_spacing: IntProperty(
         name="Spacing",
         description="Pixels of the scan from one seed to the next when a stroke is drawn",

@@ -6,7 +6,7 @@ import bpy
 
 from .show_notice import NoticeChoice
 
-_WIDTH, _LETTERS = 460, 66
+_WIDTH, _LETTERS = 480, 76
 
 
 class REFLCOLOR_OT_read_notice(NoticeChoice, bpy.types.Operator):

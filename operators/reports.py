@@ -3,6 +3,7 @@
 from functools import wraps
 
 from ..reflcolor_addon.errors import ReflcolorError, UsageError
+from .texts import core_line
 
 
 def reported(execute):
@@ -13,7 +14,7 @@ def reported(execute):
         try:
             return execute(self, context)
         except (ReflcolorError, UsageError) as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, core_line(str(error)))
             return {"CANCELLED"}
 
     return reporting

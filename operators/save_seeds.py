@@ -7,6 +7,7 @@ from bpy_extras.io_utils import ExportHelper
 from . import polls
 from .reports import reported
 from .seed_list import seeds_of
+from .texts import told
 
 
 class REFLCOLOR_OT_save_seeds(bpy.types.Operator, ExportHelper):
@@ -27,7 +28,7 @@ class REFLCOLOR_OT_save_seeds(bpy.types.Operator, ExportHelper):
     def execute(self, context):
         seeds = seeds_of(polls.scan_object(context))
         seeds.save(self.filepath)
-        self.report({"INFO"}, f"Saved {len(seeds)} seeds to {self.filepath}")
+        self.report({"INFO"}, told("Saved {count} seeds to {path}", count=len(seeds), path=self.filepath))
         return {"FINISHED"}
 
 

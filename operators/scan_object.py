@@ -10,6 +10,7 @@ from ..reflcolor_addon.normalization import normalize
 from ..reflcolor_addon.scan import Scan
 from .images import write_image
 from .nodes import node_tree_of
+from .texts import told
 
 GRAY = "Reflectance Gray"
 COLORIZED = "Colorized"
@@ -110,7 +111,9 @@ def grid_indices(obj):
     rows, cols = (values_of(obj, name, np.int32) for name in ("grid_row", "grid_col"))
     state = obj.reflcolor
     if rows.size and (rows.min() < 0 or cols.min() < 0 or rows.max() >= state.rows or cols.max() >= state.cols):
-        raise ScanError(f"{obj.name}: grid_row and grid_col point outside the scan; import the scan again")
+        raise ScanError(
+            told("{name}: grid_row and grid_col point outside the scan; import the scan again", name=obj.name)
+        )
     return rows, cols
 
 
@@ -164,7 +167,11 @@ def colors_of(obj, name):
     """
     attribute = obj.data.color_attributes.get(name)
     if attribute is None or attribute.domain != "POINT":
-        raise ScanError(f"{obj.name}: the mesh has no color attribute {name} with one color per vertex")
+        raise ScanError(
+            told(
+                "{object}: the mesh has no color attribute {name} with one color per vertex", object=obj.name, name=name
+            )
+        )
     rgba = np.empty(4 * len(attribute.data), np.float32)
     attribute.data.foreach_get("color_srgb", rgba)
     return np.rint(np.clip(rgba.reshape(-1, 4)[:, :3], 0, 1) * 255).astype(np.uint8)
@@ -197,7 +204,13 @@ def values_of(obj, name, dtype):
     """
     attribute = obj.data.attributes.get(name)
     if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
-        raise ScanError(f"{obj.name}: the mesh has lost its attribute {name}; undo what removed it, or import again")
+        raise ScanError(
+            told(
+                "{object}: the mesh has lost its attribute {name}; undo what removed it, or import again",
+                object=obj.name,
+                name=name,
+            )
+        )
     values = np.empty(len(attribute.data), dtype)
     attribute.data.foreach_get("value", values)
     return values

@@ -9,6 +9,7 @@ from ..reflcolor_addon.seeds import Seeds, nearest_valid
 from .editors import select_only
 from .quiet import point_to, write_quietly
 from .scan_object import grid_indices
+from .texts import told
 
 # The choices of a seed's ``reason``, by their numbers.
 FOUND_BY = ("hand", "pose", "homography", "appearance")
@@ -25,8 +26,14 @@ class SeedPlace:
         rows, cols = obj.reflcolor.rows, obj.reflcolor.cols
         if self.row >= rows or self.col >= cols:
             raise SeedsError(
-                f"row {self.row}, column {self.col} is outside the scan's grid "
-                f"(rows 0 to {rows - 1}, columns 0 to {cols - 1})"
+                told(
+                    "row {row}, column {col} is outside the scan's grid "
+                    "(rows 0 to {last_row}, columns 0 to {last_col})",
+                    row=self.row,
+                    col=self.col,
+                    last_row=rows - 1,
+                    last_col=cols - 1,
+                )
             )
 
 
@@ -40,7 +47,9 @@ class SeedChoice:
         state = obj.reflcolor
         index = state.active_seed if self.index < 0 else self.index
         if not 0 <= index < len(state.seeds):
-            raise SeedsError(f"there is no seed {index}; the scan has seeds 0 to {len(state.seeds) - 1}")
+            raise SeedsError(
+                told("there is no seed {index}; the scan has seeds 0 to {last}", index=index, last=len(state.seeds) - 1)
+            )
         return index
 
 
@@ -112,5 +121,5 @@ def snapped_place(obj, row, col):
     valid = np.zeros((obj.reflcolor.rows, obj.reflcolor.cols), bool)
     valid[grid_indices(obj)] = True
     if not valid.any():
-        raise SeedsError(f"{obj.name}: no pixel has a return, so no seed can be placed")
+        raise SeedsError(told("{name}: no pixel has a return, so no seed can be placed", name=obj.name))
     return nearest_valid(valid, row, col)

@@ -6,6 +6,7 @@ from bpy.props import EnumProperty
 from . import polls
 from .looks import LOOKS, show_look, why_not
 from .reports import reported
+from .texts import tip
 
 
 class REFLCOLOR_OT_show_look(bpy.types.Operator):
@@ -33,7 +34,7 @@ class REFLCOLOR_OT_show_look(bpy.types.Operator):
         """Tell of a button what it shows, and what is missing for that."""
         look, obj = LOOKS[properties.look], polls.scan_object(context)
         reason = why_not(obj, properties.look) if obj is not None else None
-        return f"{look.description}.\n{reason}" if reason else look.description
+        return f"{tip(look.description)}.\n{tip(reason)}" if reason else tip(look.description)
 
     @reported
     def execute(self, context):

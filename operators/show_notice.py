@@ -7,6 +7,7 @@ from . import polls
 from .editors import redraw_editors
 from .image_sides import side_in
 from .notices import seed_of
+from .texts import tip
 
 
 class NoticeChoice:
@@ -19,7 +20,7 @@ class NoticeChoice:
         if not polls.has_scan(cls, context):
             return False
         if not polls.scan_object(context).reflcolor.notices:
-            cls.poll_message_set("There are no messages")
+            cls.poll_message_set(tip("There are no messages"))
             return False
         return True
 
@@ -43,7 +44,7 @@ class REFLCOLOR_OT_show_notice(NoticeChoice, bpy.types.Operator):
         if obj is None or properties.index >= len(obj.reflcolor.notices):
             return cls.__doc__
         notice = obj.reflcolor.notices[properties.index]
-        hint = bpy.app.translations.pgettext_tip("Click to select the seed and show it")
+        hint = tip("Click to select the seed and show it")
         return f"{notice.text}\n{hint}" if notice.row >= 0 else notice.text
 
     def execute(self, context):

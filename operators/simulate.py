@@ -10,6 +10,7 @@ from bpy_extras.io_utils import ExportHelper
 from ..reflcolor_addon.virtual_scanner import ScannerModel
 from .reports import reported
 from .simulation import Simulation, leveled_pose, photo_cameras, simulation_steps
+from .texts import core_line, label, told
 
 _DEFAULT = ScannerModel()
 
@@ -130,7 +131,7 @@ class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
             return self._start(context, steps)
         for _ in steps:
             pass
-        self.report({"INFO"}, f"Simulated {self.filepath}")
+        self.report({"INFO"}, told("Simulated {path}", path=self.filepath))
         return {"FINISHED"}
 
     def modal(self, context, event):
@@ -157,12 +158,14 @@ class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
             fraction, text = next(self._steps)
         except StopIteration:
             self._end(context)
-            self.report({"INFO"}, f"Simulated {self.filepath}")
+            self.report({"INFO"}, told("Simulated {path}", path=self.filepath))
             return {"FINISHED"}
         except Exception:
             self._end(context)
             raise
-        context.workspace.status_text_set(f"{self.bl_label}:  {fraction:.0%}  {text}   |   ESC: Cancel")
+        context.workspace.status_text_set(
+            f"{label(self.bl_label)}:  {fraction:.0%}  {core_line(text)}   |   {label('ESC: Cancel')}"
+        )
         return {"RUNNING_MODAL"}
 
     def _end(self, context):

@@ -2,6 +2,7 @@
 
 from math import atan, degrees
 
+import bpy
 import numpy as np
 from mathutils import Vector
 
@@ -18,6 +19,21 @@ def view_of(obj, aspect):
     matrix = np.array(obj.matrix_world)
     points = coordinates.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     return frame(points, matrix[:3, 3], aspect=aspect)
+
+
+def show_first(context, count):
+    """Turn the 3D Views of the window to the first scans of a file, of which the active object is one."""
+    if bpy.app.background or context.window is None:
+        return
+    for area in context.window.screen.areas:
+        if area.type != "VIEW_3D":
+            continue
+        if count == 1:
+            look_from_scanner(context, context.active_object, area)
+            continue
+        region = next(region for region in area.regions if region.type == "WINDOW")
+        with context.temp_override(area=area, region=region):
+            bpy.ops.view3d.view_all()
 
 
 def look_from_scanner(context, obj, area):

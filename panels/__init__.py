@@ -2,12 +2,25 @@
 
 import bpy
 
-from . import colorize, compare, images, legend, looking, menus, messages, provenance, scan, seeds
+from . import (
+    colorize,
+    compare,
+    images,
+    legend,
+    looking,
+    menus,
+    messages,
+    presets,
+    provenance,
+    scan,
+    seeds,
+    translations,
+)
 
 # In the order that they are drawn in.
-_MODULES = (scan, images, seeds, colorize, messages, compare, looking, provenance, menus)
+_MODULES = (scan, images, seeds, colorize, messages, compare, looking, provenance, menus, presets)
 # What draws or stands in menus, with register() and unregister() of its own.
-_SERVICES = (legend, menus)
+_SERVICES = (legend, menus, translations)
 _registered = []
 
 

@@ -1,7 +1,9 @@
 """Step 4: colorize, and step 5: compare with the truth."""
 
 from ..operators import jobs, live_update
+from ..operators.texts import label
 from ..reflcolor_addon.settings import PRESETS
+from .presets import REFLCOLOR_PT_colorize_presets
 from .step import Step, in_both_editors, in_view
 
 
@@ -10,17 +12,22 @@ class Colorize(Step):
 
     bl_label = "4. Colorize"
 
+    def draw_header_preset(self, _context):
+        REFLCOLOR_PT_colorize_presets.draw_panel_header(self.layout)
+
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor
         row = layout.row(align=True)
         for preset in PRESETS:
-            row.operator("reflcolor.apply_preset", text=preset).preset = preset
+            row.operator("reflcolor.apply_preset", text=label(preset), translate=False).preset = preset
         column = layout.column()
         column.prop(settings, "alpha")
         column.prop(settings, "beta")
         job = jobs.running()
         if job is not None:
-            layout.progress(factor=job.fraction, text="Cancelling" if job.stopping else job.name)
+            layout.progress(
+                factor=job.fraction, text=label("Cancelling" if job.stopping else job.name), translate=False
+            )
             layout.label(text="Press ESC to cancel", icon="CANCEL")
             return
         layout.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")

@@ -10,6 +10,7 @@ from gpu_extras.batch import batch_for_shader
 
 from ..operators import polls
 from ..operators.looks import LEGEND, LOOKS, shown_look
+from ..operators.texts import label
 from ..reflcolor_addon.colormaps import UNKNOWN, gradient, region_colors
 
 # In pixels at a UI scale of 1.
@@ -46,12 +47,14 @@ def legend_of(obj):
     if look.gradient is None:
         count = int(high)
         colors, smooth = _region_colors(min(count, _REGIONS_SHOWN)), False
-        labels = ("Seed 1", f"{count}" if count <= _REGIONS_SHOWN else f"{_REGIONS_SHOWN} of {count}")
+        shown = min(count, _REGIONS_SHOWN)
+        last = f"{count}" if shown == count else label("{shown} of {count}", shown=shown, count=count)
+        labels = (label("Seed {number}", number=1), last)
     else:
         colors, smooth = _gradient_colors(look.gradient), True
         labels = tuple(number(value, high - low) for value in (low, (low + high) / 2, high))
-    title = f"{look.title} ({look.unit})" if look.unit else look.title
-    gray = "No seed reaches" if look.gradient is None else "Not known"
+    title = f"{label(look.title)} ({look.unit})" if look.unit else label(look.title)
+    gray = label("No seed reaches" if look.gradient is None else "Not known")
     return {"title": title, "colors": colors, "smooth": smooth, "labels": labels, "unknown": gray if unknown else None}
 
 
@@ -136,9 +139,9 @@ def _bar(colors, smooth, left, bottom, width, height):
 def _labels(labels, left, right, bottom, size):
     """Texts under the bar: the first at its left end, the last at its right end, others between."""
     blf.size(0, size)
-    for index, label in enumerate(labels):
+    for index, text in enumerate(labels):
         share = index / (len(labels) - 1)
-        _text(label, left + (right - left - blf.dimensions(0, label)[0]) * share, bottom, size)
+        _text(text, left + (right - left - blf.dimensions(0, text)[0]) * share, bottom, size)
 
 
 def _text(text, left, bottom, size):

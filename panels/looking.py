@@ -1,6 +1,7 @@
 """What the viewport shows of a scan."""
 
 from ..operators.looks import LOOKS, shown_look, why_not
+from ..operators.texts import label
 from .step import Step, in_view
 
 
@@ -19,9 +20,9 @@ class Looking(Step):
             reason = why_not(obj, identifier)
             row = column.row(align=True)
             row.enabled = reason is None
-            text = f"{look.title}: {reason}" if reason else look.title
+            text = f"{label(look.title)}: {label(reason)}" if reason else label(look.title)
             row.operator(
-                "reflcolor.show_look", text=text, icon=look.icon, depress=identifier == shown
+                "reflcolor.show_look", text=text, icon=look.icon, depress=identifier == shown, translate=False
             ).look = identifier
         shading = context.space_data.shading
         if shading.type != "SOLID":

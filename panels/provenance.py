@@ -3,20 +3,22 @@
 from functools import lru_cache
 from pathlib import PurePath
 
+from bpy.app.translations import pgettext_n as n_
+
 from ..operators.provenance import provenance_text
 from ..operators.scan_object import COLORIZED
-from ..operators.texts import label
+from ..operators.texts import core_line, label
 from ..reflcolor_addon.errors import ReflcolorError
 from ..reflcolor_addon.provenance import outline, parse_provenance
 from .step import Step, in_view
 
 _ICONS = {"scan": "MESH_GRID", "seeds": "FILE_TEXT", "photo": "IMAGE_DATA"}
 _SOURCES = {
-    "photo": "{count} seeds picked in a photo",
-    "hand": "{count} seeds with a color given by hand",
-    "pose": "{count} seeds found by a photo's camera",
-    "homography": "{count} seeds found by a photo's homography",
-    "appearance": "{count} seeds found by likeness",
+    "photo": n_("{count} seeds picked in a photo"),
+    "hand": n_("{count} seeds with a color given by hand"),
+    "pose": n_("{count} seeds found by a photo's camera"),
+    "homography": n_("{count} seeds found by a photo's homography"),
+    "appearance": n_("{count} seeds found by likeness"),
 }
 _INPUTS_SHOWN = 6
 _HASH_DIGITS = 12
@@ -39,7 +41,7 @@ class Provenance(Step):
             return
         found, problem = _outline(text)
         if found is None:
-            layout.label(text=problem, icon="ERROR")
+            layout.label(text=problem, icon="ERROR", translate=False)
             return
         _draw(layout, found)
         layout.operator("reflcolor.copy_provenance", icon="COPYDOWN")
@@ -77,7 +79,7 @@ def _outline(text):
     try:
         return outline(parse_provenance(text)), None
     except ReflcolorError as error:
-        return None, str(error)
+        return None, core_line(str(error))
 
 
 classes = (in_view(Provenance),)

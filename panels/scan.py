@@ -1,5 +1,6 @@
 """Step 1: the scan."""
 
+from ..operators.texts import label
 from .step import Step, in_view
 
 
@@ -15,7 +16,9 @@ class Scan(Step):
             return
         column = layout.column(align=True)
         column.label(text=obj.name, icon="MESH_GRID", translate=False)
-        column.label(text=f"{obj.reflcolor.rows} x {obj.reflcolor.cols} pixels, {len(obj.data.vertices)} returns")
+        rows, cols, returns = obj.reflcolor.rows, obj.reflcolor.cols, len(obj.data.vertices)
+        said = label("{rows} x {cols} pixels, {returns} returns", rows=rows, cols=cols, returns=returns)
+        column.label(text=said, translate=False)
 
 
 classes = (in_view(Scan),)

@@ -2,14 +2,19 @@
 
 import bpy
 
+from ..operators.texts import label
+from .presets import REFLCOLOR_PT_match_presets
 from .step import Step, in_both_editors
+
+# Of the list's width.
+_COLOR_SHARE = 0.2
 
 
 class REFLCOLOR_UL_seeds(bpy.types.UIList):
     """Seeds of a scan: color, number, row and column"""
 
     def draw_item(self, _context, layout, _data, seed, _icon, _active_data, _active_property, index):
-        split = layout.split(factor=0.2)
+        split = layout.split(factor=_COLOR_SHARE)
         if seed.has_color:
             split.prop(seed, "color", text="")
         else:
@@ -34,7 +39,11 @@ class Seeds(Step):
             return
         state = obj.reflcolor
         row = layout.row()
-        row.template_list("REFLCOLOR_UL_seeds", "", state, "seeds", state, "active_seed", rows=4)
+        column = row.column(align=True)
+        heads = column.split(factor=_COLOR_SHARE)
+        heads.label(text="Color")
+        heads.label(text="Row, Column")
+        column.template_list("REFLCOLOR_UL_seeds", "", state, "seeds", state, "active_seed", rows=4)
         buttons = row.column(align=True)
         buttons.operator("reflcolor.add_seed", text="", icon="ADD")
         buttons.operator("reflcolor.remove_seed", text="", icon="REMOVE")
@@ -43,7 +52,7 @@ class Seeds(Step):
         buttons.operator("reflcolor.clear_seeds", text="", icon="TRASH")
         row = layout.row(align=True)
         for which in ("all", "none", "unsure"):
-            row.operator("reflcolor.select_all_seeds", text=which.title()).which = which
+            row.operator("reflcolor.select_all_seeds", text=label(which.title()), translate=False).which = which
         row.operator("reflcolor.delete_seeds", text="", icon="X")
         row = layout.row(align=True)
         row.operator("reflcolor.load_seeds", icon="FILE_FOLDER")
@@ -55,6 +64,9 @@ class Match(Step):
 
     bl_label = "Find in Photos"
     bl_parent_id = "REFLCOLOR_PT_seeds"
+
+    def draw_header_preset(self, _context):
+        REFLCOLOR_PT_match_presets.draw_panel_header(self.layout)
 
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor
@@ -68,7 +80,8 @@ class Match(Step):
             pairs = sum(seed.reason == "hand" and seed.photo is not None for seed in obj.reflcolor.seeds)
             column = layout.column(align=True)
             column.label(text="Not recognized? Pick 4 to 6 seeds", icon="INFO")
-            column.label(text=f"with a photo point ({pairs} so far)", icon="BLANK1")
+            said = label("with a photo point ({count} so far)", count=pairs)
+            column.label(text=said, icon="BLANK1", translate=False)
 
 
 class Descriptors(Step):

@@ -52,7 +52,9 @@ def test_every_act_is_in_the_menu_that_search_looks_into(blender, menus):
     registered = {
         name.removeprefix("REFLCOLOR_OT_")
         for name in dir(blender.types)
-        if name.startswith("REFLCOLOR_OT_") and "REGISTER" in getattr(blender.types, name).bl_options
+        if name.startswith("REFLCOLOR_OT_")
+        and "REGISTER" in (options := getattr(blender.types, name).bl_options)
+        and "INTERNAL" not in options
     }
     listed = [name for names in menus.ACTS for name in names]
     assert len(set(listed)) == len(listed)

@@ -3,6 +3,7 @@
 import re
 
 import pytest
+import ui_strings
 from blender_session import EXTENSION
 
 SMALL_WORDS = {
@@ -34,14 +35,9 @@ def classes(blender):
 
 
 @pytest.fixture
-def properties(classes):
-    """(place, property) for every property that the extension's classes declare."""
-    return [
-        (f"{name}.{prop.identifier}", prop)
-        for name, cls in classes.items()
-        for prop in cls.bl_rna.properties
-        if prop.identifier in getattr(cls, "__annotations__", {})
-    ]
+def properties(blender):
+    """(place, property) for every property that the extension's operators and property groups declare."""
+    return ui_strings.properties(blender)
 
 
 def _operator(bpy, idname: str):
@@ -82,6 +78,11 @@ def test_operators_have_tooltips_without_a_full_stop(blender, classes):
     operators = {name: cls.bl_idname for name, cls in classes.items() if "_OT_" in name}
     tooltips = {name: _operator(blender, idname).get_rna_type().description for name, idname in operators.items()}
     assert not {name: (text, fault) for name, text in tooltips.items() if (fault := _tooltip_fault(text))}
+
+
+def test_the_extension_declares_properties(properties):
+    places = {place for place, _ in properties}
+    assert {"reflcolor.colorize.alpha", "ReflcolorSettings.alpha", "ReflcolorSeed.row", "ReflcolorWipe.show"} <= places
 
 
 def test_properties_are_named_in_title_case(properties):

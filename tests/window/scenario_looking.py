@@ -3,6 +3,22 @@
 import bpy
 
 
+def scenario_the_first_scan_is_in_view(window):
+    eye = window.area("VIEW_3D").spaces.active.region_3d
+    before = eye.view_matrix.copy()
+    window.call("reflcolor.import_scan", filepath=window.example("cones.scan.json"))
+    yield 0.3
+    eye = window.area("VIEW_3D").spaces.active.region_3d
+    window.check(eye.view_matrix != before, "the view turned to the scan")
+    yield from window.show_sidebar()
+    yield from window.screenshot("first")
+    before = eye.view_matrix.copy()
+    window.call("reflcolor.import_scan", filepath=window.example("cones.scan.json"))
+    yield 0.3
+    eye = window.area("VIEW_3D").spaces.active.region_3d
+    window.equal(eye.view_matrix, before, "the view once a second scan is imported")
+
+
 def scenario_maps_with_a_legend(window):
     _colorize(window)
     truth = bpy.data.images.load(window.example("truth.png"))
@@ -65,7 +81,7 @@ def scenario_a_message_leads_to_its_seed(window):
 def _scan_editor(window):
     """Lay out the workspace to pick seeds in, and return the Image Editor that shows the scan; generator."""
     window.call("reflcolor.open_seed_picking")
-    yield from window.until(lambda: len(_image_areas(window)) == 2, 10, "two Image Editors are laid out")
+    yield from window.until(lambda: len(_image_areas(window)) == 2, 30, "two Image Editors are laid out")
     yield 1.0
     return max(_image_areas(window), key=lambda area: area.y)
 
@@ -81,5 +97,3 @@ def _colorize(window, *, seed_without_return=False):
         # A window pane, which gives no return.
         window.call("reflcolor.add_seed", row=60, col=340, color=(0.2, 0.2, 0.2))
     window.call("reflcolor.colorize")
-    with window.at(window.area("VIEW_3D")):
-        bpy.ops.view3d.view_selected()

@@ -1,0 +1,160 @@
+"""German: what panels say, what operators report, and what is missing for them."""
+
+_PANELS = {
+    "Cancelling": "Wird abgebrochen",
+    "Click scan, then photo": "Erst Scan, dann Foto anklicken",
+    "Color": "Farbe",
+    "Colorize first": "Erst einfärben",
+    "Colors of unknown origin": "Farben unbekannter Herkunft",
+    "Deleted image": "Gelöschtes Bild",
+    "ESC: Cancel": "ESC: Abbrechen",
+    "Evaluate first": "Erst bewerten",
+    "Evidence": "Beleg",
+    "For a range and a reflectance image picked together": "Für ein Entfernungs- und ein Reflektanzbild zusammen",
+    "Import a scan, or select one": "Scan importieren oder auswählen",
+    "Import it again": "Noch einmal importieren",
+    "Inference": "Schluss",
+    "Inputs (SHA-256)": "Eingaben (SHA-256)",
+    "Maps show in Solid shading": "Karten zeigen sich in der Schattierung Solide",
+    "Needs a scan": "Braucht einen Scan",
+    "Needs seeds": "Braucht Saatpunkte",
+    "Next Seed": "Nächster Saatpunkt",
+    "No seed reaches": "Von keinem erreicht",
+    "None in the scan": "Nicht im Scan",
+    "Not known": "Nicht bekannt",
+    "Not recognized? Pick 4 to 6 seeds": "Nicht erkannt? 4 bis 6 Saatpunkte",
+    "Press ESC to cancel": "ESC bricht ab",
+    "Row, Column": "Zeile, Spalte",
+    "Seed {number}": "Saatpunkt {number}",
+    "Select Seeds": "Saatpunkte auswählen",
+    "and {count} more": "und {count} weitere",
+    "not kept": "nicht vermerkt",
+    "with a photo point ({count} so far)": "mit Fotopunkt setzen (bisher {count})",
+    "{count} more warnings": "{count} weitere Warnungen",
+    "{count} pixels colored from them": "{count} Pixel daraus eingefärbt",
+    "{count} pixels left gray": "{count} Pixel grau gelassen",
+    "{count} seeds found by a photo's camera": "{count} Saatpunkte durch die Kamera eines Fotos",
+    "{count} seeds found by a photo's homography": "{count} Saatpunkte durch die Homographie eines Fotos",
+    "{count} seeds found by likeness": "{count} Saatpunkte durch Ähnlichkeit",
+    "{count} seeds picked in a photo": "{count} Saatpunkte aus einem Foto gepickt",
+    "{count} seeds with a color given by hand": "{count} Saatpunkte mit Farbe von Hand",
+    "{rows} x {cols} pixels, {returns} returns": "{rows} x {cols} Pixel, {returns} Messungen",
+    "{shown} of {count}": "{shown} von {count}",
+}
+
+_JOBS = {
+    "Colorize": "Einfärben",
+    "Evaluate": "Bewerten",
+    "Import Laser Scan": "Laserscan importieren",
+    "Match Photos": "Fotos zuordnen",
+    "Move Seeds or Stroke": "Saatpunkte ziehen oder Strich",
+}
+
+_MISSING = {
+    "Add a seed first": "Erst einen Saatpunkt hinzufügen",
+    "Colorize the scan first": "Erst den Scan einfärben",
+    "Give a seed its color first": "Erst einem Saatpunkt seine Farbe geben",
+    "Import a scan, and show its reflectance image or a photo here": (
+        "Einen Scan importieren und hier sein Reflektanzbild oder ein Foto zeigen"
+    ),
+    "Import a scan, or select one, first": "Erst einen Scan importieren oder auswählen",
+    "Leave Edit Mode first": "Erst den Bearbeitungsmodus verlassen",
+    "Load a photo first": "Erst ein Foto laden",
+    "Open Seed Picking first": "Erst die Saatpunktauswahl öffnen",
+    "Pick a color first": "Erst eine Farbe aufnehmen",
+    "Run this in Blender's window": "Nur in Blenders Fenster möglich",
+    "Select a seed first": "Erst einen Saatpunkt auswählen",
+    "The mesh is linked from another file; make it local first": (
+        "Das Netz ist aus einer anderen Datei verknüpft; erst lokal machen"
+    ),
+    "There are no messages": "Es gibt keine Meldungen",
+    "Turn Live Update on first": "Erst die Live-Aktualisierung einschalten",
+}
+
+_REPORTS = {
+    "Click on {name}": "Auf {name} klicken",
+    "Colorized {name} from {count} seeds": "{name} aus {count} Saatpunkten eingefärbt",
+    "Copied the report to the clipboard": "Bericht in die Zwischenablage kopiert",
+    "Deleted {count} seeds": "{count} Saatpunkte gelöscht",
+    "Found {count} seeds for {name}": "{count} Saatpunkte für {name} gefunden",
+    "Imported {name}": "{name} importiert",
+    "Loaded {count} seeds": "{count} Saatpunkte geladen",
+    "Loaded {name}: {width} x {height} pixels": "{name} geladen: {width} x {height} Pixel",
+    "No return there; placed at row {row}, column {col}": "Dort keine Messung; gesetzt in Zeile {row}, Spalte {col}",
+    "Saved {count} seeds to {path}": "{count} Saatpunkte gespeichert in {path}",
+    "Simulated {path}": "{path} simuliert",
+    "Simulation cancelled": "Simulation abgebrochen",
+    "That seed was moved or removed": "Dieser Saatpunkt wurde versetzt oder entfernt",
+    "The reflectance image was deleted; undo that, or import the scan again": (
+        "Das Reflektanzbild wurde gelöscht; das rückgängig machen oder den Scan noch einmal importieren"
+    ),
+    "a photo of the list cannot be read; remove it and load it again": (
+        "ein Foto der Liste ist nicht lesbar; es entfernen und neu laden"
+    ),
+    "photo {photo} has no color at {x:g}, {y:g}; load the photo, pick inside it": (
+        "Foto {photo} hat keine Farbe bei {x:g}, {y:g}; das Foto laden, darin aufnehmen"
+    ),
+    "row {row}, column {col} is outside the scan's grid (rows 0 to {last_row}, columns 0 to {last_col})": (
+        "Zeile {row}, Spalte {col} liegt außerhalb des Scans (Zeilen 0 bis {last_row}, Spalten 0 bis {last_col})"
+    ),
+    "there is no image {name}; open it first": "es gibt kein Bild {name}; es erst öffnen",
+    "there is no seed {index}; the scan has seeds 0 to {last}": (
+        "es gibt keinen Saatpunkt {index}; der Scan hat die Saatpunkte 0 bis {last}"
+    ),
+    "{image}: is {width} x {height} pixels, but the scan {name} has {cols} columns x {rows} rows; "
+    "they must be the same": (
+        "{image}: hat {width} x {height} Pixel, aber der Scan {name} hat {cols} Spalten x {rows} Zeilen; "
+        "beide müssen gleich sein"
+    ),
+    "{name} cancelled; nothing was changed": "{name} abgebrochen; nichts wurde geändert",
+    "{name} is gone; its colors were dropped": "{name} ist nicht mehr da; die Farben wurden verworfen",
+    "{name} is gone; its errors were dropped": "{name} ist nicht mehr da; die Fehler wurden verworfen",
+    "{name} is gone; its seeds were dropped": "{name} ist nicht mehr da; die Saatpunkte wurden verworfen",
+    "{name} is not in this view layer": "{name} ist nicht in dieser Ansichtsebene",
+    "{name} is still running; press ESC to cancel it": "{name} läuft noch; ESC bricht es ab",
+    "{name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of {count} vertices (luminance apart)": (
+        "{name}: CIEDE2000 {mean:.2f} im Mittel, unter {percentile:.2f} an 95 % von {count} Vertices (ohne Helligkeit)"
+    ),
+    "{name}: grid_row and grid_col point outside the scan; import the scan again": (
+        "{name}: grid_row und grid_col zeigen aus dem Scan hinaus; den Scan noch einmal importieren"
+    ),
+    "{name}: no pixel has a return, so no seed can be placed": (
+        "{name}: kein Pixel hat eine Messung, also kann kein Saatpunkt gesetzt werden"
+    ),
+    "{name}: pick two images together, one of range and one of reflectance": (
+        "{name}: zwei Bilder zusammen auswählen, eines der Entfernung und eines der Reflektanz"
+    ),
+    "{name}: the scan came without colors; choose an image of its true colors": (
+        "{name}: der Scan kam ohne Farben; ein Bild seiner wahren Farben wählen"
+    ),
+    "{object}: the mesh has lost its attribute {name}; undo what removed it, or import again": (
+        "{object}: das Netz hat sein Attribut {name} verloren; rückgängig machen oder noch einmal importieren"
+    ),
+    "{object}: the mesh has no color attribute {name} with one color per vertex": (
+        "{object}: das Netz hat kein Farbattribut {name} mit einer Farbe je Vertex"
+    ),
+}
+
+CORE = {
+    "Estimating by kriging": "Schätzen durch Kriging",
+    "Matched": "Zugeordnet",
+    "Opening the photos": "Fotos werden geöffnet",
+    "Preparing the scan": "Scan wird vorbereitet",
+    "Seed {} of {}": "Saatpunkt {} von {}",
+    "Writing the colors": "Farben werden geschrieben",
+    "no seeds: add at least one pixel with a color": (
+        "keine Saatpunkte: mindestens ein Pixel mit einer Farbe hinzufügen"
+    ),
+    "seed {}: no return at row {}, column {}; moved to row {}, column {}": (
+        "Saatpunkt {}: keine Messung in Zeile {}, Spalte {}; verschoben nach Zeile {}, Spalte {}"
+    ),
+    "{} nearest of {} seeds": "{} nächste von {} Saatpunkten",
+    "{} pixels are cut off from every seed and keep their gray; add seeds there": (
+        "{} Pixel sind von allen Saatpunkten abgeschnitten und bleiben grau; dort Saatpunkte hinzufügen"
+    ),
+}
+"""Lines of the core, with {} for numbers."""
+
+MESSAGES = {
+    ("*", text): german for texts in (_PANELS, _JOBS, _MISSING, _REPORTS, CORE) for text, german in texts.items()
+}

@@ -1,0 +1,206 @@
+"""German: tooltips of operators, looks and settings."""
+
+_OPERATORS = {
+    "Add a pixel of the scan whose color is known, given directly or by a point of a photo": (
+        "Ein Pixel des Scans hinzufügen, dessen Farbe bekannt ist: unmittelbar oder durch einen Punkt eines Fotos"
+    ),
+    "Choose what the viewports show of the scan; only reflectance and colorized change renders and exports, too": (
+        "Wählen, was die Ansichten vom Scan zeigen; nur Reflektanz und Eingefärbt ändern auch Bilder und Exporte"
+    ),
+    "Click in the reflectance image to place a seed, in a photo to pick its color, on a seed to select it": (
+        "Ein Klick ins Reflektanzbild setzt einen Saatpunkt, ins Foto nimmt seine Farbe auf, auf einen wählt ihn aus"
+    ),
+    "Click on the mesh to place a seed at the vertex there, on a seed to select it": (
+        "Ein Klick aufs Netz setzt einen Saatpunkt an den Vertex dort, auf einen Saatpunkt wählt ihn aus"
+    ),
+    "Click to select the seed and show it": "Ein Klick wählt den Saatpunkt aus und zeigt ihn",
+    "Compare the colors with those of the scan itself or of an image, and store the difference at every vertex": (
+        "Die Farben mit denen des Scans oder eines Bildes vergleichen und den Unterschied an jedem Vertex ablegen"
+    ),
+    "Copy the whole message to the clipboard": "Die ganze Meldung in die Zwischenablage kopieren",
+    "Copy the whole report on the scan's colors, as JSON, to the clipboard": (
+        "Den ganzen Bericht über die Farben des Scans als JSON in die Zwischenablage kopieren"
+    ),
+    "Delete the selected seeds": "Die ausgewählten Saatpunkte löschen",
+    "Drag a seed, with all that are selected if it is, to move it, in a photo to another color; drag elsewhere in the\n"
+    "reflectance image to lay a line of seeds": (
+        "Einen Saatpunkt ziehen, mit allen ausgewählten, wenn er es ist, versetzt ihn, im Foto zu anderer Farbe;\n"
+        "anderswo im Reflektanzbild ziehen legt eine Linie von Saatpunkten"
+    ),
+    "Find seeds in the photos; those picked by hand and locked ones stay, and four to six picked pairs help": (
+        "Saatpunkte in den Fotos suchen; von Hand gesetzte und gesperrte bleiben, vier bis sechs gesetzte Paare helfen"
+    ),
+    "Go back to the workspace that was there before, and remove this one": (
+        "Zum Arbeitsbereich von vorher zurückkehren und diesen entfernen"
+    ),
+    "Have the selected seeds, or those that are placed next, keep the scan gray around them": (
+        "Die ausgewählten oder die nächsten Saatpunkte den Scan um sich herum grau lassen"
+    ),
+    "Import a structured laser scan (PTX, E57, or a range and a reflectance image) as a mesh": (
+        "Einen strukturierten Laserscan (PTX, E57 oder ein Entfernungs- und ein Reflektanzbild) als Netz importieren"
+    ),
+    "Keep the selected seeds when the photos are matched again": (
+        "Die ausgewählten Saatpunkte behalten, wenn die Fotos noch einmal zugeordnet werden"
+    ),
+    "Keep the settings of the colorization as a preset, or remove a preset": (
+        "Die Einstellungen des Einfärbens als Vorlage behalten, oder eine Vorlage entfernen"
+    ),
+    "Keep the settings of the search in photos as a preset, or remove a preset": (
+        "Die Einstellungen der Suche in Fotos als Vorlage behalten, oder eine Vorlage entfernen"
+    ),
+    "Lay out the reflectance image, a photo and the mesh side by side, in a workspace of its own": (
+        "Reflektanzbild, Foto und Netz nebeneinander zeigen, in einem eigenen Arbeitsbereich"
+    ),
+    "Let go of the picked color; the next seed waits for its own": (
+        "Die aufgenommene Farbe loslassen; der nächste Saatpunkt wartet auf seine eigene"
+    ),
+    "Load ordinary photos, from any camera and any place, to take colors from": (
+        "Gewöhnliche Fotos laden, von irgendeiner Kamera und irgendwo her, um Farben daraus zu nehmen"
+    ),
+    "Load seeds for the scan from a JSON file": "Saatpunkte für den Scan aus einer JSON-Datei laden",
+    "Move a seed to another pixel of the scan; its color stays": (
+        "Einen Saatpunkt auf ein anderes Pixel des Scans versetzen; seine Farbe bleibt"
+    ),
+    "Pick a color in a photo, for the selected seeds or, if none is, for those that are placed next": (
+        "Eine Farbe im Foto aufnehmen, für die ausgewählten Saatpunkte oder, ist keiner es, für die nächsten"
+    ),
+    "Place a seed; it has the picked color, or is given one by the next click in a photo": (
+        "Einen Saatpunkt setzen; er hat die aufgenommene Farbe, oder der nächste Klick ins Foto gibt ihm eine"
+    ),
+    "Place seeds in the reflectance image and pick their colors in a photo, in either order.\n"
+    "Click: place, pick or select.  Drag a seed: move it.  Drag elsewhere: lay a line of seeds.\n"
+    "Ctrl-click: delete.  Alt-click: take a color.  Shift-drag: select in a box.  Ctrl-drag: select by a lasso": (
+        "Saatpunkte ins Reflektanzbild setzen und ihre Farben im Foto aufnehmen, in beliebiger Reihenfolge.\n"
+        "Klick: setzen, aufnehmen oder auswählen.  Saatpunkt ziehen: versetzen.  Anderswo ziehen: eine Linie legen.\n"
+        "Strg-Klick: löschen.  Alt-Klick: Farbe nehmen.  Umschalt-Ziehen: Rechteck.  Strg-Ziehen: Lasso"
+    ),
+    "Place seeds on the mesh of a scan.\nClick: place or select.  Ctrl-click: delete.  X: delete the selected ones": (
+        "Saatpunkte auf das Netz eines Scans setzen.\n"
+        "Klick: setzen oder auswählen.  Strg-Klick: löschen.  X: ausgewählte löschen"
+    ),
+    "Remove a seed of the scan": "Einen Saatpunkt des Scans entfernen",
+    "Remove all seeds of the scan": "Alle Saatpunkte des Scans entfernen",
+    "Save the seeds of the scan as a JSON file, for the command line or another scan of the same place": (
+        "Die Saatpunkte als JSON-Datei speichern, für die Kommandozeile oder einen anderen Scan desselben Ortes"
+    ),
+    "Scan the scene with a virtual laser scanner and take photos of it, for teaching, planning and tests": (
+        "Die Szene mit einem virtuellen Laserscanner scannen und fotografieren, für Lehre, Planung und Tests"
+    ),
+    "Select a seed; the next click in a photo gives it its color": (
+        "Einen Saatpunkt auswählen; der nächste Klick in ein Foto gibt ihm seine Farbe"
+    ),
+    "Select all seeds, none, or those of one kind": "Alle Saatpunkte auswählen, keinen, oder die von einer Art",
+    "Select the seed that the message is about and show it in the images; without one, show the whole message": (
+        "Den Saatpunkt, von dem die Meldung handelt, auswählen und in den Bildern zeigen; ohne einen die ganze Meldung"
+    ),
+    "Select the seeds inside a box or a lasso that is drawn around them": (
+        "Die Saatpunkte auswählen, um die ein Rechteck oder ein Lasso gezogen wird"
+    ),
+    "Set alpha, beta and the other settings of the colorization to a preset": (
+        "Alpha, Beta und die anderen Einstellungen des Einfärbens auf eine Vorgabe setzen"
+    ),
+    "Show the scan's reflectance in an Image Editor of this window, or in a new window if it has none": (
+        "Die Reflektanz des Scans in einem Bildeditor dieses Fensters zeigen, oder, hat es keinen, in einem neuen"
+    ),
+    "Show the whole message, to read and to copy": "Die ganze Meldung zeigen, zum Lesen und Kopieren",
+    "Spread the colors of the seeds over the whole scan, along paths of like reflectance and range": (
+        "Die Farben der Saatpunkte über den ganzen Scan verbreiten, auf Wegen gleicher Reflektanz und Entfernung"
+    ),
+    "Take the selected photo off the list; the image stays in the file": (
+        "Das ausgewählte Foto von der Liste nehmen; das Bild bleibt in der Datei"
+    ),
+    "Turn Live Update off, and show the colors that were there before": (
+        "Die Live-Aktualisierung ausschalten und die Farben von vorher zeigen"
+    ),
+}
+
+_LOOKS = {
+    "How far to trust each color: 1 at the seeds, falling with the distance from them": (
+        "Wie weit jeder Farbe zu trauen ist: 1 an den Saatpunkten, fallend mit dem Abstand von ihnen"
+    ),
+    "The colors that came with the scan": "Die Farben, die mit dem Scan kamen",
+    "The colors that were spread from the seeds": "Die Farben, die von den Saatpunkten aus verbreitet wurden",
+    "The colors that were spread from the seeds; renders and exports take them, too": (
+        "Die von den Saatpunkten verbreiteten Farben; auch Bilder und Exporte nehmen sie"
+    ),
+    "The difference from the true colors, where they are known, in CIEDE2000 with the luminance apart": (
+        "Der Unterschied zu den wahren Farben, wo sie bekannt sind, in CIEDE2000 ohne Helligkeit"
+    ),
+    "The distance from the scanner": "Der Abstand vom Scanner",
+    "The gray of the reflectance, as the scanner measured it; renders and exports take it, too": (
+        "Das Grau der Reflektanz, wie der Scanner sie maß; auch Bilder und Exporte nehmen es"
+    ),
+    "The regions that are nearest to each seed, in a color of their own that is not the seed's": (
+        "Die Gebiete, die jedem Saatpunkt am nächsten sind, in eigener Farbe, die nicht die des Saatpunkts ist"
+    ),
+    "What to look at": "Was zu sehen ist",
+}
+
+_SETTINGS = {
+    "All seeds where that takes about two seconds, else as many as it takes to be close to that": (
+        "Alle Saatpunkte, wo das etwa zwei Sekunden braucht, sonst so viele, dass es dem nahekommt"
+    ),
+    "By each photo's camera, accepted only if it stands a test; else by appearance": (
+        "Durch die Kamera jedes Fotos, wenn sie eine Prüfung besteht; sonst nach dem Aussehen"
+    ),
+    "By the most similar superpixels, as published; often wrong on real scans": (
+        "Nach den ähnlichsten Superpixeln, wie veröffentlicht; bei echten Scans oft falsch"
+    ),
+    "Cells of a block of the descriptor": "Zellen eines Blocks des Deskriptors",
+    "Directions that the descriptor tells apart": "Richtungen, die der Deskriptor unterscheidet",
+    "Every seed colors every pixel, as the paper has it": "Jeder Saatpunkt färbt jedes Pixel, wie veröffentlicht",
+    "How fast a seed's influence falls with the geodesic distance; higher makes borders sharper": (
+        "Wie schnell der Einfluss eines Saatpunkts mit der geodätischen Entfernung fällt; höher macht Grenzen schärfer"
+    ),
+    "How many of its nearest seeds color a pixel, if Blend is Nearest": (
+        "Wie viele seiner nächsten Saatpunkte ein Pixel färben, wenn die Mischung Nächste ist"
+    ),
+    "How seeds are found in photos": "Wie Saatpunkte in Fotos gefunden werden",
+    "How square superpixels are; less lets them follow edges": (
+        "Wie quadratisch Superpixel sind; weniger lässt sie Kanten folgen"
+    ),
+    "How strongly steps in range hold colors back; 0 looks at the reflectance alone (Yatziv)": (
+        "Wie stark Sprünge der Entfernung Farben aufhalten; 0 sieht nur auf die Reflektanz (Yatziv)"
+    ),
+    "Logarithms of cone responses, decorrelated over natural images": (
+        "Logarithmen der Zapfenantworten, dekorreliert über natürliche Bilder"
+    ),
+    "Luminance and two color differences, ITU-R BT.601; the paper's choice": (
+        "Helligkeit und zwei Farbdifferenzen, ITU-R BT.601; die Wahl der Veröffentlichung"
+    ),
+    "Luminance and two color differences, as in analog television": (
+        "Helligkeit und zwei Farbdifferenzen, wie im analogen Fernsehen"
+    ),
+    "Only a pixel's nearest seeds color it; quick with very many seeds": (
+        "Nur seine nächsten Saatpunkte färben ein Pixel; schnell bei sehr vielen Saatpunkten"
+    ),
+    "Paths step diagonally too": "Wege gehen auch schräg",
+    "Paths step to the pixels above, below, left and right": "Wege gehen zu den Pixeln oben, unten, links und rechts",
+    "Perceptual lightness and two opponent colors": "Wahrgenommene Helligkeit und zwei Gegenfarben",
+    "Pixels by which the image is smoothed before it is divided": (
+        "Pixel, um die das Bild geglättet wird, bevor es geteilt wird"
+    ),
+    "Pixels by which the reflectance is smoothed before distances are measured on it; not in the paper": (
+        "Pixel, um die die Reflektanz geglättet wird, bevor Wege darauf gemessen werden; nicht in der Veröffentlichung"
+    ),
+    "Pixels of a cell of the descriptor": "Pixel einer Zelle des Deskriptors",
+    "Pixels of the descriptor's window around a superpixel's center": (
+        "Pixel des Fensters des Deskriptors um die Mitte eines Superpixels"
+    ),
+    "Share of a statistical estimate from position, surface and reflectance; not in the paper": (
+        "Anteil einer statistischen Schätzung aus Ort, Oberfläche und Reflektanz; nicht in der Veröffentlichung"
+    ),
+    "Superpixels that the scan, and each photo, is divided into; there is one seed in each at most": (
+        "Superpixel, in die der Scan und jedes Foto geteilt werden; in jedem ist höchstens ein Saatpunkt"
+    ),
+    "The method as published": "Das Verfahren, wie veröffentlicht",
+    "What measured best on real scans: smoothed reflectance, fewer seeds per pixel, kriging": (
+        "Was an echten Scans am besten maß: geglättete Reflektanz, weniger Saatpunkte je Pixel, Kriging"
+    ),
+    "Where the two chrominance channels are blended": "Wo die beiden Farbkanäle gemischt werden",
+    "Which pixels a path may step to": "Zu welchen Pixeln ein Weg gehen darf",
+    "Which seeds color a pixel": "Welche Saatpunkte ein Pixel färben",
+    "Which settings to take over": "Welche Einstellungen zu übernehmen sind",
+}
+
+MESSAGES = {("*", text): german for tips in (_OPERATORS, _LOOKS, _SETTINGS) for text, german in tips.items()}
