@@ -104,6 +104,7 @@ def grid_indices(obj):
 
 def add_colors(obj, name, rgb):
     """Write (N, 3) uint8 sRGB, one per vertex, as a color attribute of that name; one that is there is replaced."""
+    _check_readable(obj)
     mesh = obj.data
     attribute = mesh.color_attributes.get(name)
     if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "BYTE_COLOR"):
@@ -125,6 +126,7 @@ def colors_of(obj, name):
     ScanError
         If it is there no more, or has other than one color per vertex.
     """
+    _check_readable(obj)
     attribute = obj.data.color_attributes.get(name)
     if attribute is None or attribute.domain != "POINT":
         raise ScanError(f"{obj.name}: the mesh has no color attribute {name} with one color per vertex")
@@ -135,6 +137,7 @@ def colors_of(obj, name):
 
 def add_values(obj, name, values):
     """Write (N,) float32, one per vertex, as an attribute of that name; one that is there is replaced."""
+    _check_readable(obj)
     attribute = obj.data.attributes.get(name)
     if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
         obj.data.attributes.remove(attribute)
@@ -182,7 +185,14 @@ def _fill_mesh(mesh, scan, mesh_data, coordinates):
         mesh.attributes.new(name, kind, "POINT").data.foreach_set("value", np.ascontiguousarray(values))
 
 
+def _check_readable(obj):
+    """Raise ScanError in Edit Mode, where Blender keeps the mesh elsewhere and shows its attributes as empty."""
+    if obj.data.is_editmode:
+        raise ScanError(f"{obj.name}: leave Edit Mode first")
+
+
 def _read_attribute(obj, name, dtype):
+    _check_readable(obj)
     attribute = obj.data.attributes.get(name)
     kind = {np.float32: "FLOAT", np.int32: "INT"}[dtype]
     if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", kind):

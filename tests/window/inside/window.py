@@ -105,8 +105,13 @@ class Window(Hands, Eyes, Buttons, Stalls):
     def call(self, operator, *, area=None, **arguments):
         """Call an operator by script, "reflcolor.add_seed", in an area's context, with an undo step of its own."""
         group, name = operator.split(".")
+        function = getattr(getattr(bpy.ops, group), name)
         with self.at(area or self.area("VIEW_3D")):
-            return getattr(getattr(bpy.ops, group), name)("EXEC_DEFAULT", True, **arguments)
+            # Not with Blender's own argument for undo: with it, what is not given is taken from the last call.
+            result = function("EXEC_DEFAULT", **arguments)
+        if "UNDO" in function.bl_options and "FINISHED" in result:
+            self.push(operator)
+        return result
 
     def invoke(self, operator, *, area=None, **arguments):
         """Call an operator as a button does: with its dialog or file browser, or going on in the window."""
