@@ -119,6 +119,13 @@ class Window(Hands, Eyes, Buttons, Stalls):
         with self.at(area or self.area("VIEW_3D")):
             return getattr(getattr(bpy.ops, group), name)("INVOKE_DEFAULT", True, **arguments)
 
+    def drop(self, *paths, area=None):
+        """Drop files on an area: call what Blender calls when it gets them from another program."""
+        folders = {str(Path(path).parent) for path in paths}
+        self.equal(len(folders), 1, "folders of what is dropped at once")
+        files = [{"name": Path(path).name} for path in paths]
+        return self.invoke("wm.drop_import_file", area=area, directory=folders.pop(), files=files)
+
     def undo(self, redo=False):
         """Press Ctrl Z, or Shift Ctrl Z, with the mouse over the 3D View."""
         yield from self.move(self.place_in(self.area("VIEW_3D")))
