@@ -89,8 +89,7 @@ def threads(rounds):
     """Exact mode by one and two threads: by the clock, and how much more work two make."""
     images = cases.case("doria")
     pixels = cases.spread_seeds(images[2], 200)
-    graph, colors = kernel.Graph(*images), cases.seed_colors(pixels)
-    functions = {n: partial(kernel.blend_all, graph, pixels, colors, ALPHA, threads=n) for n in (1, 2)}
+    functions = {n: partial(cases.exact, images, pixels, ALPHA, n) for n in (1, 2)}
     clock, work = ({n: [] for n in functions} for _ in range(2))
     for _ in range(rounds):
         for n, function in functions.items():

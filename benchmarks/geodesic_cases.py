@@ -7,6 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from benchmarks import real_scans
+from reflcolor_addon.engines import NativeEngine
+from reflcolor_addon.exact import HeldFields, add_fields
 from reflcolor_addon.graph import PixelGraph
 from reflcolor_addon.normalization import normalize
 
@@ -48,6 +50,16 @@ def pixel_graph(images, neighbors=8):
     """The graph that scipy works on."""
     luminance, range_image, valid = images
     return PixelGraph(luminance=luminance, range_image=range_image, valid=valid, neighbors=neighbors)
+
+
+def exact(images, pixels, alpha, threads):
+    """The mean of all seeds, as the Colorizer takes it."""
+    engine = NativeEngine(pixel_graph(images))
+    blend = engine.blend(alpha)
+    seeds = list(zip(pixels.tolist(), map(tuple, seed_colors(pixels).tolist()), strict=True))
+    called = {"added": lambda index, field: None, "cancelled": lambda: False}
+    add_fields(engine, blend, seeds, threads=threads, held=HeldFields(0), **called)
+    return blend.mean()
 
 
 def spread_seeds(valid, count):

@@ -31,11 +31,9 @@ def run(method, images, pixels, number):
     """The work that is measured, from images to means."""
     if method == "levin":
         return peers.levin(*cases.as_scan(images, pixels))
-    graph = kernel.Graph(*images)
-    colors = cases.seed_colors(pixels)
     if method == "exact":
-        return kernel.blend_all(graph, pixels, colors, _ALPHA, threads=number)
-    return kernel.blend_nearest(*kernel.nearest(graph, pixels, number), colors, _ALPHA)
+        return cases.exact(images, pixels, _ALPHA, number)
+    return kernel.nearest(kernel.Graph(*images), pixels, number).blend(cases.seed_colors(pixels), _ALPHA)
 
 
 def main():

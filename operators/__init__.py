@@ -6,21 +6,48 @@ from . import (
     add_seed,
     apply_preset,
     clear_seeds,
+    close_seed_picking,
     colorize,
     command,
+    copy_notice,
+    copy_provenance,
+    delete_seeds,
+    drag,
+    draw_seeds,
+    drop_color,
+    drop_files,
     evaluate,
     import_scan,
     jobs,
+    keep_gray,
+    leave_preview,
+    live_update,
     load_photo,
     load_seeds,
+    lock_seeds,
     match_photos,
     move_seed,
     open_reflectance,
+    pick,
+    pick_color,
+    pick_in_view,
+    place_seed,
+    pointer,
     properties,
+    read_notice,
     remove_photo,
     remove_seed,
     save_seeds,
+    seed_picking,
+    select_all_seeds,
+    select_region,
+    select_seed,
+    show_look,
+    show_notice,
     simulate,
+    tools,
+    wipe,
+    wipe_handle,
 )
 
 _MODULES = (
@@ -39,8 +66,32 @@ _MODULES = (
     apply_preset,
     colorize,
     evaluate,
+    show_look,
+    copy_provenance,
+    show_notice,
+    read_notice,
+    copy_notice,
+    drop_files,
+    wipe,
     simulate,
+    leave_preview,
+    place_seed,
+    pick_color,
+    keep_gray,
+    drop_color,
+    select_seed,
+    select_all_seeds,
+    select_region,
+    delete_seeds,
+    lock_seeds,
+    pick,
+    drag,
+    pick_in_view,
+    seed_picking,
+    close_seed_picking,
 )
+# What draws, listens or stands in a toolbar, with register() and unregister() of its own.
+_SERVICES = (draw_seeds, live_update, tools, wipe, wipe_handle)
 _undo = []
 
 
@@ -49,17 +100,25 @@ def register():
         for cls in module.classes:
             bpy.utils.register_class(cls)
             _undo.append((bpy.utils.unregister_class, cls))
-    for owner, cls in ((bpy.types.Object, properties.ReflcolorScan), (bpy.types.Scene, properties.ReflcolorSettings)):
+    for owner, cls in (
+        (bpy.types.Object, properties.ReflcolorScan),
+        (bpy.types.Scene, properties.ReflcolorSettings),
+        (bpy.types.WindowManager, leave_preview.ReflcolorWindow),
+    ):
         owner.reflcolor = bpy.props.PointerProperty(type=cls)
         _undo.append((_delete_property, owner))
     for menu, module in ((bpy.types.TOPBAR_MT_file_import, import_scan), (bpy.types.TOPBAR_MT_file_export, simulate)):
         menu.append(module.draw_menu)
         _undo.append((menu.remove, module.draw_menu))
+    for service in _SERVICES:
+        service.register()
+        _undo.append((_unregister, service))
     _undo.append((bpy.utils.unregister_cli_command, bpy.utils.register_cli_command("reflcolor", command.run)))
 
 
 def unregister():
     jobs.stop_all()
+    pointer.stop_all()
     while _undo:
         take_off, thing = _undo.pop()
         take_off(thing)
@@ -67,3 +126,7 @@ def unregister():
 
 def _delete_property(owner):
     del owner.reflcolor
+
+
+def _unregister(service):
+    service.unregister()

@@ -3,12 +3,15 @@
 import bpy
 
 from ..reflcolor_addon.colorize import colorize
-from . import polls
-from .images import write_image
+from . import live_update, polls
+from .colorized_object import show_colorization
 from .jobs import JobOperator
+from .notices import tell
 from .properties import COLORIZE_NAMES, ColorizeSettings, core_settings
-from .scan_object import COLORIZED, add_colors, grid_indices, scan_of, show_colors
+from .provenance import record_provenance, window_report
+from .scan_object import scan_reader
 from .seed_list import seeds_of
+from .texts import told
 
 
 class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
@@ -27,28 +30,26 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
         obj = polls.scan_object(context)
         # A name, not the object: it may be gone, or be another one after an undo, when the work is done.
         self._object_name = obj.name
-        scan, seeds = scan_of(obj), seeds_of(obj)
         settings = core_settings(self, context.scene.reflcolor, COLORIZE_NAMES)
-        return lambda progress, cancelled: colorize(scan, seeds, settings, progress=progress, cancelled=cancelled)
+        seeds = seeds_of(obj)
+        self._seeds, self._settings = seeds, settings
+        previewed = live_update.finished(obj, settings)
+        if previewed is not None:
+            return lambda progress, cancelled: previewed
+        read_scan = scan_reader(obj)
+        return lambda progress, cancelled: colorize(
+            read_scan(), seeds, settings, progress=progress, cancelled=cancelled
+        )
 
     def finish(self, context, result):
         obj = bpy.data.objects.get(self._object_name)
         if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != result.rgb.shape[:2]:
-            self.report({"WARNING"}, f"{self._object_name} is gone; its colors were dropped")
+            self.report({"WARNING"}, told("{name} is gone; its colors were dropped", name=self._object_name))
             return
         show_colorization(obj, result)
-        for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Colorized {obj.name} from {len(result.seeds)} seeds")
-
-
-def show_colorization(obj, colorization):
-    """Write a Colorization onto its object: color attribute, material and image."""
-    add_colors(obj, COLORIZED, colorization.rgb[grid_indices(obj)])
-    show_colors(obj, COLORIZED)
-    state = obj.reflcolor
-    name = f"{obj.name} {COLORIZED}"
-    state.colorized_image = write_image(state.colorized_image, name, colorization.rgb, is_data=False)
+        record_provenance(obj, window_report(obj, result, self._settings, self._seeds))
+        said = told("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
+        tell(self, obj, said, result.warnings, self._seeds)
 
 
 classes = (REFLCOLOR_OT_colorize,)

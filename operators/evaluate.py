@@ -9,9 +9,11 @@ from ..reflcolor_addon.evaluation import error_map, evaluate
 from . import polls
 from .images import read_image
 from .jobs import JobOperator
-from .scan_object import COLORIZED, SCANNED, add_values, colors_of, grid_indices
+from .looks import refresh_look
+from .notices import tell
+from .scan_object import COLORIZED, ERROR, SCANNED, add_values, colors_of, grid_indices
+from .texts import told
 
-ERROR = "error"
 # Where no true color is known.
 UNKNOWN = -1.0
 
@@ -58,15 +60,20 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
         figures, errors = result
         obj = bpy.data.objects.get(self._object_name)
         if obj is None or len(obj.data.vertices) != len(errors):
-            self.report({"WARNING"}, f"{self._object_name} is gone; its errors were dropped")
+            self.report({"WARNING"}, told("{name} is gone; its errors were dropped", name=self._object_name))
             return
         add_values(obj, ERROR, np.nan_to_num(errors, nan=UNKNOWN))
+        refresh_look(obj)
         mean, percentile = (figures["color_alone"][f"ciede2000_{name}"] for name in ("mean", "p95"))
-        self.report(
-            {"INFO"},
-            f"{obj.name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of "
-            f"{figures['pixels']} vertices (luminance apart)",
+        said = told(
+            "{name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of {count} vertices "
+            "(luminance apart)",
+            name=obj.name,
+            mean=mean,
+            percentile=percentile,
+            count=figures["pixels"],
         )
+        tell(self, obj, said, ())
 
     def _image(self, obj):
         if not self.truth:

@@ -6,8 +6,8 @@ import numpy as np
 from ..reflcolor_addon.virtual_camera import linear_to_srgb8
 
 
-def write_image(image, name, pixels, *, is_data):
-    """Put pixels into an image and keep it in the .blend; ``image`` is replaced in place, or made if None.
+def write_image(image, name, pixels, *, is_data, keep=True):
+    """Put pixels into an image; ``image`` is replaced in place, or made if None.
 
     Parameters
     ----------
@@ -17,6 +17,8 @@ def write_image(image, name, pixels, *, is_data):
     pixels : (H, W) float32 of 0..1, or (H, W, 3) uint8
     is_data : bool
         Whether the values are no colors.
+    keep : bool
+        Whether it is kept in the .blend.
 
     Returns
     -------
@@ -34,7 +36,8 @@ def write_image(image, name, pixels, *, is_data):
         rgba[..., :3] = pixels[::-1, :, None]
     image.pixels.foreach_set(rgba.ravel())
     image.update()
-    image.pack()
+    if keep:
+        image.pack()
     return image
 
 

@@ -10,11 +10,16 @@ from bpy_extras.io_utils import ImportHelper
 from ..reflcolor_addon.errors import ScanError
 from ..reflcolor_addon.grid_mesh import MAX_INCIDENCE_DEG, grid_mesh
 from ..reflcolor_addon.image_files import IMAGE_SUFFIXES
+from ..reflcolor_addon.inputs import scan_files
 from ..reflcolor_addon.orientation import flipped
 from ..reflcolor_addon.readers import SCAN_SUFFIXES, read_scans
 from ..reflcolor_addon.readers.pair_description import describe_pair
+from ..reflcolor_addon.report import input_entry, scan_entry
 from .jobs import JobOperator
+from .notices import tell
+from .provenance import record_import
 from .scan_object import add_scan_object
+from .texts import told
 
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
 
@@ -106,7 +111,8 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
     swap_images: BoolProperty(name="Swap Images", description="Take the other one of the two images as the range image")
 
     def invoke(self, context, event):
-        if self.filepath:
+        # Given by a drop or a script; what was picked the last time does not count as given.
+        if self.properties.is_property_set("filepath"):
             return self.start(context)
         self._browsed = True
         return ImportHelper.invoke(self, context, event)
@@ -126,19 +132,24 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
 
         def work(progress, cancelled):
             files = [describe_pair(*pair, sensor, range_scale=range_scale, swap=swap)] if pair else paths
-            scans = [scan for path in files for scan in read_scans(path, progress=progress, cancelled=cancelled)]
-            if any(flips.values()):
-                scans = [flipped(scan, **flips) for scan in scans]
-            return [(scan, grid_mesh(scan, max_incidence_deg)) for scan in scans]
+            return [imported for path in files for imported in read(path, progress, cancelled)]
+
+        def read(path, progress, cancelled):
+            scans = read_scans(path, progress=progress, cancelled=cancelled)
+            inputs = [input_entry("scan", file, cancelled) for file in scan_files(path)]
+            for index, scan in enumerate(scans, 1):
+                if any(flips.values()):
+                    scan = flipped(scan, **flips)
+                turned = [name for name, chosen in flips.items() if chosen]
+                yield scan, grid_mesh(scan, max_incidence_deg), scan_entry(scan, index, turned), inputs
 
         return work
 
     def finish(self, context, result):
-        for scan, mesh_data in result:
-            add_scan_object(context, scan, mesh_data)
-            for warning in scan.warnings:
-                self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Imported {', '.join(scan.name for scan, _ in result)}")
+        for scan, mesh_data, entry, inputs in result:
+            obj = add_scan_object(context, scan, mesh_data)
+            record_import(obj, entry, inputs, scan.warnings)
+            tell(self, obj, told("Imported {name}", name=scan.name), scan.warnings)
 
     def _sensor_model(self):
         if self.sensor == "pinhole":

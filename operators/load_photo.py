@@ -3,16 +3,19 @@
 from pathlib import Path
 
 import bpy
-from bpy.props import StringProperty
+from bpy.props import CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..reflcolor_addon.image_files import IMAGE_SUFFIXES, read_image
+from ..reflcolor_addon.report import input_entry
 from .images import show_image, write_image
+from .provenance import record_photo
 from .reports import reported
+from .texts import told
 
 
 class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
-    """Load an ordinary photo, from any camera and any place, to take colors from"""
+    """Load ordinary photos, from any camera and any place, to take colors from"""
 
     bl_idname = "reflcolor.load_photo"
     bl_label = "Load Photo"
@@ -20,11 +23,24 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
 
     filter_glob: StringProperty(default=";".join(f"*{suffix}" for suffix in IMAGE_SUFFIXES), options={"HIDDEN"})
 
+    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
+    files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
+
+    def invoke(self, context, event):
+        # Given by a drop or a script; what was picked the last time does not count as given.
+        if self.properties.is_property_set("filepath"):
+            return self.execute(context)
+        return ImportHelper.invoke(self, context, event)
+
     @reported
     def execute(self, context):
-        image = add_photo(context, Path(self.filepath))
+        names = [file.name for file in self.files if file.name]
+        for path in [Path(self.directory, name) for name in names] or [Path(self.filepath)]:
+            image = add_photo(context, path)
+            width, height = image.size
+            said = told("Loaded {name}: {width} x {height} pixels", name=image.name, width=width, height=height)
+            self.report({"INFO"}, said)
         show_image(context, image)
-        self.report({"INFO"}, f"Loaded {image.name}: {image.size[0]} x {image.size[1]} pixels")
         return {"FINISHED"}
 
 
@@ -33,15 +49,25 @@ def add_photo(context, path):
 
     Raises
     ------
-    ImageError
+    ReflcolorError
         If it cannot be read.
     """
     # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
-    image = write_image(None, path.name, read_image(path), is_data=False)
-    settings = context.scene.reflcolor
-    settings.photos.add().image = image
-    settings.active_photo = len(settings.photos) - 1
+    pixels, entry = read_image(path), input_entry("photo", path)
+    image = write_image(None, path.name, pixels, is_data=False)
+    record_photo(image, entry)
+    list_photo(context, image)
     return image
+
+
+def list_photo(context, image):
+    """Put an image on the scene's list of photos, where it is not yet, and select it there."""
+    settings = context.scene.reflcolor
+    listed = [photo.image for photo in settings.photos]
+    if image not in listed:
+        settings.photos.add().image = image
+        listed.append(image)
+    settings.active_photo = listed.index(image)
 
 
 classes = (REFLCOLOR_OT_load_photo,)

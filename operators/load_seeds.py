@@ -9,9 +9,12 @@ from bpy_extras.io_utils import ImportHelper
 from ..reflcolor_addon.seeds import Seeds, find_photo
 from . import polls
 from .load_photo import add_photo
+from .notices import tell
+from .provenance import record_seeds_file
 from .reports import reported
 from .scan_object import scan_of
 from .seed_list import append_seeds
+from .texts import told
 
 
 class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
@@ -28,6 +31,11 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
     def poll(cls, context):
         return polls.has_scan(cls, context)
 
+    def invoke(self, context, event):
+        if self.properties.is_property_set("filepath"):
+            return self.execute(context)
+        return ImportHelper.invoke(self, context, event)
+
     @reported
     def execute(self, context):
         obj = polls.scan_object(context)
@@ -40,9 +48,8 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
         if self.replace:
             obj.reflcolor.seeds.clear()
         append_seeds(obj, seeds)
-        for warning in warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Loaded {len(seeds)} seeds")
+        record_seeds_file(obj, self.filepath, others=not self.replace)
+        tell(self, obj, told("Loaded {count} seeds", count=len(seeds)), warnings, seeds)
         return {"FINISHED"}
 
 

@@ -9,13 +9,16 @@ from ..reflcolor_addon.seeds import Seeds
 from . import polls
 from .images import read_pixels, write_image
 from .jobs import JobOperator
+from .notices import tell
 from .properties import MATCH_NAMES, MatchSettings, core_settings
-from .scan_object import scan_of
-from .seed_list import append_seeds, seeds_of
+from .provenance import record_matching
+from .scan_object import scan_reader
+from .seed_list import append_seeds, remove_seeds, seeds_of
+from .texts import told
 
 
 class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
-    """Find seeds in the photos of the list; seeds picked by hand stay, and four to six with a photo point help"""
+    """Find seeds in the photos; those picked by hand and locked ones stay, and four to six picked pairs help"""
 
     bl_idname = "reflcolor.match_photos"
     bl_label = "Match Photos"
@@ -33,12 +36,17 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         photos = [read_pixels(bpy.data.images[name]) for name in self._photo_names]
         if any(pixels is None for pixels in photos):
             raise SeedsError("a photo of the list cannot be read; remove it and load it again")
-        scan, settings = scan_of(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
+        read_scan, settings = scan_reader(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
+        self._settings = settings
         numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}
         hand = renamed(seeds_of(obj, wanted=lambda seed: seed.reason == "hand"), numbered)
+        kept = renamed(seeds_of(obj, wanted=lambda seed: seed.reason != "hand" and seed.locked), numbered)
 
         def work(progress, cancelled):
-            matching = match_photos(scan, photos, settings, hand=hand, progress=progress, cancelled=cancelled)
+            scan = read_scan()
+            matching = match_photos(
+                scan, photos, settings, hand=hand, kept=kept, progress=progress, cancelled=cancelled
+            )
             return matching, draw_matches(scan, photos, matching.seeds)
 
         return work
@@ -47,22 +55,33 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         matching, picture = result
         obj = bpy.data.objects.get(self._object_name)
         if obj is None or not obj.reflcolor.rows:
-            self.report({"WARNING"}, f"{self._object_name} is gone; its seeds were dropped")
+            self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=self._object_name))
             return
         names = {f"photo {number}": name for number, name in enumerate(self._photo_names, 1)}
-        obj.reflcolor.seeds.clear()
-        append_seeds(obj, renamed(matching.seeds, names))
+        replaced = [i for i, seed in enumerate(obj.reflcolor.seeds) if seed.reason != "hand" and not seed.locked]
+        remove_seeds(obj, replaced)
+        locked = {(seed.row, seed.col) for seed in obj.reflcolor.seeds if seed.locked}
+        places = zip(matching.seeds.rows.tolist(), matching.seeds.cols.tolist(), strict=True)
+        found = [
+            index
+            for index, (place, reason) in enumerate(zip(places, matching.seeds.reason, strict=True))
+            if reason != "hand" and place not in locked
+        ]
+        append_seeds(obj, renamed(matching.seeds.chosen(found), names))
+        record_matching(obj, matching, names, self._settings, MATCH_NAMES)
         state = obj.reflcolor
         state.matches_image = write_image(state.matches_image, f"{obj.name} Matches", picture, is_data=False)
         notes = {names[photo.name]: photo.note for photo in matching.photos}
         for photo in context.scene.reflcolor.photos:
             if photo.image is not None and photo.image.name in notes:
                 photo.note = notes[photo.image.name]
+        warnings = []
         for warning in matching.warnings:
             for number, name in names.items():
                 warning = warning.replace(f"{number}:", f"{name}:")
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Found {len(matching.seeds)} seeds for {obj.name}")
+            warnings.append(warning)
+        said = told("Found {count} seeds for {name}", count=len(matching.seeds), name=obj.name)
+        tell(self, obj, said, warnings, details=[f"{name}: {note}" for name, note in notes.items()])
 
 
 def renamed(seeds, names):

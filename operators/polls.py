@@ -1,12 +1,35 @@
 """When an operator can run, and what to do when it cannot."""
 
+import bpy
+
 from .scan_object import COLORIZED
+
+
+def has_window(cls, context):
+    """There is a window, not only a script."""
+    if bpy.app.background or context.window is None:
+        cls.poll_message_set("Run this in Blender's window")
+        return False
+    return True
 
 
 def has_scan(cls, context):
     """A scan's object is active."""
     if scan_object(context) is None:
         cls.poll_message_set("Import a scan, or select one, first")
+        return False
+    return True
+
+
+def has_editable_scan(cls, context):
+    """A scan's object is active, and its mesh can be written to."""
+    if not has_scan(cls, context):
+        return False
+    if scan_object(context).data.library is not None:
+        cls.poll_message_set("The mesh is linked from another file; make it local first")
+        return False
+    if scan_object(context).mode == "EDIT":
+        cls.poll_message_set("Leave Edit Mode first")
         return False
     return True
 
@@ -27,6 +50,16 @@ def has_colored_seeds(cls, context):
         return False
     if not any(seed.has_color for seed in scan_object(context).reflcolor.seeds):
         cls.poll_message_set("Give a seed its color first")
+        return False
+    return True
+
+
+def has_selected_seeds(cls, context):
+    """A scan's object is active and a seed of it is selected."""
+    if not has_seeds(cls, context):
+        return False
+    if not any(seed.select for seed in scan_object(context).reflcolor.seeds):
+        cls.poll_message_set("Select a seed first")
         return False
     return True
 

@@ -13,10 +13,19 @@ from bpy.props import (
 )
 
 from ..reflcolor_addon import settings
+from .editors import redraw_editors, select_only
+from .notices import ReflcolorNotice
 
 
 def _color_was_given(seed, _context):
     seed.has_color = True
+    redraw_editors()
+
+
+def _seed_was_chosen(state, _context):
+    """What is chosen in the list is what is selected in the images."""
+    select_only(state.seeds, [state.active_seed])
+    redraw_editors()
 
 
 class ReflcolorSeed(bpy.types.PropertyGroup):
@@ -71,11 +80,16 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     cols: IntProperty(name="Columns", description="Width of the scan's grid in pixels")
     source: StringProperty(name="Source", description="File that the scan was read from")
     seeds: CollectionProperty(name="Seeds", type=ReflcolorSeed)
-    active_seed: IntProperty(name="Active Seed", description="Seed that is selected in the list")
+    active_seed: IntProperty(
+        name="Active Seed", description="Seed that is selected in the list", update=_seed_was_chosen
+    )
     reflectance_image: PointerProperty(name="Reflectance Image", type=bpy.types.Image)
     range_image: PointerProperty(name="Range Image", type=bpy.types.Image)
     colorized_image: PointerProperty(name="Colorized Image", type=bpy.types.Image)
+    preview_image: PointerProperty(name="Live Preview", type=bpy.types.Image)
     matches_image: PointerProperty(name="Matches", type=bpy.types.Image)
+    notices: CollectionProperty(name="Messages", description="What the last operation had to say", type=ReflcolorNotice)
+    active_notice: IntProperty(name="Active Message", description="Message that is selected in the list")
     truth_image: PointerProperty(
         name="True Colors",
         description="Image with one pixel per pixel of the scan, to compare the colors with; "
@@ -226,19 +240,58 @@ COLORIZE_NAMES = tuple(ColorizeSettings.__annotations__)
 MATCH_NAMES = tuple(MatchSettings.__annotations__)
 
 
+def _color_was_picked(settings, _context):
+    settings.picked = True
+    settings.picked_photo = None
+
+
 class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup):
     """Settings of the next colorization in this scene"""
 
     photos: CollectionProperty(name="Photos", type=ReflcolorPhoto)
+    picked: BoolProperty(name="Picked", description="The next seed is given the picked color")
+    picked_color: FloatVectorProperty(
+        name="Picked Color",
+        description="Color that the next seeds are given; pick it in a photo",
+        subtype="COLOR_GAMMA",
+        min=0,
+        max=1,
+        size=3,
+        default=(0.5, 0.5, 0.5),
+        update=_color_was_picked,
+    )
+    picked_photo: PointerProperty(name="Picked In", type=bpy.types.Image)
+    picked_xy: FloatVectorProperty(name="Picked At", size=2)
+    stroke_spacing: IntProperty(
+        name="Spacing",
+        description="Pixels of the scan from one seed to the next when a stroke is drawn",
+        subtype="PIXEL",
+        default=16,
+        min=1,
+        soft_max=100,
+    )
+    show_matches: BoolProperty(
+        name="Match Lines",
+        description="Join every seed in the reflectance image with its point in the photo beside it; "
+        "else only selected ones",
+        update=lambda _settings, _context: redraw_editors(),
+    )
     active_photo: IntProperty(name="Active Photo", description="Photo that is selected in the list")
 
 
 def core_settings(holder, fallback, names):
-    """Return the core's Settings from properties; what is not set on ``holder`` is taken from ``fallback``."""
-    chosen = {}
-    for name in names:
-        source = holder if holder.properties.is_property_set(name) else fallback
-        chosen[name] = getattr(source, name)
+    """Return the core's Settings from properties; what is not set on the operator is taken from ``fallback``."""
+    return _settings(
+        {name: getattr(holder if holder.properties.is_property_set(name) else fallback, name) for name in names}
+    )
+
+
+def scene_settings(scene, names):
+    """Return the core's Settings from the properties of a scene."""
+    return _settings({name: getattr(scene.reflcolor, name) for name in names})
+
+
+def _settings(chosen):
     if "blend" in chosen:
         chosen["nearest"] = {"auto": "auto", "all": None, "nearest": chosen["nearest"]}[chosen.pop("blend")]
         chosen["neighbors"] = int(chosen["neighbors"])
@@ -255,4 +308,4 @@ def take_over(holder, chosen):
             setattr(holder, name, str(value) if name == "neighbors" else value)
 
 
-classes = (ReflcolorSeed, ReflcolorPhoto, ReflcolorScan, ReflcolorSettings)
+classes = (ReflcolorSeed, ReflcolorPhoto, ReflcolorNotice, ReflcolorScan, ReflcolorSettings)

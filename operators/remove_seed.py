@@ -4,7 +4,7 @@ import bpy
 
 from . import polls
 from .reports import reported
-from .seed_list import SeedChoice
+from .seed_list import SeedChoice, remove_seeds
 
 
 class REFLCOLOR_OT_remove_seed(SeedChoice, bpy.types.Operator):
@@ -21,9 +21,7 @@ class REFLCOLOR_OT_remove_seed(SeedChoice, bpy.types.Operator):
     @reported
     def execute(self, context):
         obj = polls.scan_object(context)
-        state = obj.reflcolor
-        state.seeds.remove(self.chosen(obj))
-        state.active_seed = min(state.active_seed, max(0, len(state.seeds) - 1))
+        remove_seeds(obj, [self.chosen(obj)])
         return {"FINISHED"}
 
 

@@ -4,11 +4,10 @@ import math
 from contextlib import contextmanager
 
 import bpy
-import numpy as np
 from mathutils import Vector
 
-from ..reflcolor_addon.framing import frame
 from .nodes import node_tree_of
+from .viewpoint import view_of
 
 SIZE = (1280, 800)
 # Suns without shadows: a scan has holes and open backs, whose shadows would look like dirt. Each is the share of a
@@ -19,11 +18,7 @@ _LIGHTS = (("Headlight", None, 0.55), ("Sky", (0.0, 0.0, 1.0), 0.35), ("Side", (
 def add_camera_and_lights(context, obj):
     """Add a camera that frames the object, and plain lights, to the scene; both are ready to render."""
     scene = context.scene
-    coordinates = np.empty(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", coordinates)
-    matrix = np.array(obj.matrix_world)
-    points = coordinates.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-    view = frame(points, matrix[:3, 3], aspect=SIZE[0] / SIZE[1])
+    view = view_of(obj, SIZE[0] / SIZE[1])
 
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     toward = Vector(view.target - view.position)

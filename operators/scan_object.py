@@ -14,8 +14,12 @@ from .nodes import node_tree_of
 GRAY = "Reflectance Gray"
 COLORIZED = "Colorized"
 SCANNED = "Scanned Color"
+CONFIDENCE = "confidence"
+NEAREST_SEED = "nearest_seed"
+ERROR = "error"
 SHIFT = "reflcolor_shift"
 CENTER = "reflcolor_center"
+_KINDS = {np.float32: "FLOAT", np.int32: "INT"}
 
 
 def add_scan_object(context, scan, mesh_data):
@@ -49,7 +53,7 @@ def add_scan_object(context, scan, mesh_data):
     state.source = str(scan.source or "")
     luminance, _ = normalize(scan.reflectance, scan.valid)
     range_image, _ = normalize(scan.range, scan.valid)
-    state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=True)
+    state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=False)
     state.range_image = write_image(None, f"{scan.name} Range", range_image / 255, is_data=True)
     add_colors(obj, GRAY, np.repeat(np.rint(luminance).astype(np.uint8)[scan.valid, None], 3, axis=1))
     if scan.color is not None:
@@ -66,25 +70,33 @@ def add_scan_object(context, scan, mesh_data):
 
 
 def scan_of(obj):
-    """Return the Scan that an object was made from, read back from its mesh.
+    """Return the Scan that an object was made from, read back from its mesh; raises as `scan_reader`."""
+    return scan_reader(obj)()
+
+
+def scan_reader(obj):
+    """Return a function that makes the Scan that an object was made from; it touches no bpy, a thread may call it.
 
     Raises
     ------
     ScanError
         If the mesh has lost the attributes that tie its vertices to the scan's grid.
     """
-    mesh, state = obj.data, obj.reflcolor
-    rows, cols = grid_indices(obj)
-    reflectance = np.zeros((state.rows, state.cols), np.float32)
-    reflectance[rows, cols] = _read_attribute(obj, "reflectance", np.float32)
+    mesh, name, shape = obj.data, obj.name, (obj.reflcolor.rows, obj.reflcolor.cols)
+    place = grid_indices(obj)
+    measured = values_of(obj, "reflectance", np.float32)
     coordinates = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("co", coordinates)
     metres = bpy.context.scene.unit_settings.scale_length
-    points = np.zeros((state.rows, state.cols, 3))
-    points[rows, cols] = coordinates.reshape(-1, 3).astype(np.float64) * metres + np.array(mesh.get(CENTER, (0, 0, 0)))
-    valid = np.zeros((state.rows, state.cols), bool)
-    valid[rows, cols] = True
-    return Scan(name=obj.name, points=points, reflectance=reflectance, valid=valid)
+    center = np.array(mesh.get(CENTER, (0, 0, 0)))
+
+    def read():
+        reflectance, points, valid = np.zeros(shape, np.float32), np.zeros((*shape, 3)), np.zeros(shape, bool)
+        reflectance[place], valid[place] = measured, True
+        points[place] = coordinates.reshape(-1, 3).astype(np.float64) * metres + center
+        return Scan(name=name, points=points, reflectance=reflectance, valid=valid)
+
+    return read
 
 
 def grid_indices(obj):
@@ -95,11 +107,36 @@ def grid_indices(obj):
     ScanError
         If the attributes are gone or point outside the grid.
     """
-    rows, cols = (_read_attribute(obj, name, np.int32) for name in ("grid_row", "grid_col"))
+    rows, cols = (values_of(obj, name, np.int32) for name in ("grid_row", "grid_col"))
     state = obj.reflcolor
     if rows.size and (rows.min() < 0 or cols.min() < 0 or rows.max() >= state.rows or cols.max() >= state.cols):
         raise ScanError(f"{obj.name}: grid_row and grid_col point outside the scan; import the scan again")
     return rows, cols
+
+
+def seed_vertices(obj, rows, cols):
+    """Return where pixels of the scan are in the world, and which of them have a vertex.
+
+    Parameters
+    ----------
+    rows, cols : (S,) int
+
+    Returns
+    -------
+    places : (S, 3) float32
+    known : (S,) bool
+    """
+    mesh, width = obj.data, obj.reflcolor.cols
+    grid_rows, grid_cols = grid_indices(obj)
+    vertex = np.full(obj.reflcolor.rows * width, -1, np.int32)
+    vertex[grid_rows * width + grid_cols] = np.arange(len(grid_rows))
+    inside = (rows < obj.reflcolor.rows) & (cols < width)
+    index = np.where(inside, vertex[np.where(inside, rows * width + cols, 0)], -1)
+    coordinates = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", coordinates)
+    known = index >= 0
+    local = coordinates.reshape(-1, 3)[np.where(known, index, 0)]
+    return local @ np.array(obj.matrix_world.to_3x3(), np.float32).T + np.array(obj.matrix_world.translation), known
 
 
 def add_colors(obj, name, rgb):
@@ -136,27 +173,54 @@ def colors_of(obj, name):
 
 
 def add_values(obj, name, values):
-    """Write (N,) float32, one per vertex, as an attribute of that name; one that is there is replaced."""
+    """Write (N,) numbers, one per vertex, as an attribute of that name; one that is there is replaced.
+
+    Whole numbers are kept as int32, others as float32.
+    """
     _check_readable(obj)
+    values = np.asarray(values)
+    dtype = np.int32 if values.dtype.kind in "iu" else np.float32
     attribute = obj.data.attributes.get(name)
-    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "FLOAT"):
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
         obj.data.attributes.remove(attribute)
         attribute = None
     if attribute is None:
-        attribute = obj.data.attributes.new(name, "FLOAT", "POINT")
-    attribute.data.foreach_set("value", np.ascontiguousarray(values, np.float32))
+        attribute = obj.data.attributes.new(name, _KINDS[dtype], "POINT")
+    attribute.data.foreach_set("value", np.ascontiguousarray(values, dtype))
     obj.data.update()
+
+
+def values_of(obj, name, dtype):
+    """Return the (N,) float32 or int32, one per vertex, of the attribute of that name.
+
+    Raises
+    ------
+    ScanError
+        If it is there no more, or holds something else.
+    """
+    _check_readable(obj)
+    attribute = obj.data.attributes.get(name)
+    if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
+        raise ScanError(f"{obj.name}: the mesh has lost its attribute {name}; undo what removed it, or import again")
+    values = np.empty(len(attribute.data), dtype)
+    attribute.data.foreach_get("value", values)
+    return values
 
 
 def show_colors(obj, name):
     """Make a color attribute the one that is seen: in viewports, renders and exports."""
     mesh = obj.data
-    mesh.color_attributes.active_color_name = name
+    look_at(obj, name)
     mesh.color_attributes.render_color_index = mesh.color_attributes.find(name)
     for material in filter(None, mesh.materials):
         for node in material.node_tree.nodes if material.node_tree else ():
             if node.type == "VERTEX_COLOR":
                 node.layer_name = name
+
+
+def look_at(obj, name):
+    """Make a color attribute the one that solid viewports show; renders and exports keep theirs."""
+    obj.data.color_attributes.active_color_name = name
     # Solid views show the material's one color unless told otherwise.
     for screen in bpy.data.screens:
         for area in screen.areas:
@@ -189,17 +253,6 @@ def _check_readable(obj):
     """Raise ScanError in Edit Mode, where Blender keeps the mesh elsewhere and shows its attributes as empty."""
     if obj.data.is_editmode:
         raise ScanError(f"{obj.name}: leave Edit Mode first")
-
-
-def _read_attribute(obj, name, dtype):
-    _check_readable(obj)
-    attribute = obj.data.attributes.get(name)
-    kind = {np.float32: "FLOAT", np.int32: "INT"}[dtype]
-    if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", kind):
-        raise ScanError(f"{obj.name}: the mesh has lost its attribute {name}; undo what removed it, or import again")
-    values = np.empty(len(attribute.data), dtype)
-    attribute.data.foreach_get("value", values)
-    return values
 
 
 def _material(name):

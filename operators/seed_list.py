@@ -5,7 +5,13 @@ import numpy as np
 from bpy.props import IntProperty
 
 from ..reflcolor_addon.errors import SeedsError
-from ..reflcolor_addon.seeds import Seeds
+from ..reflcolor_addon.seeds import Seeds, nearest_valid
+from .editors import select_only
+from .quiet import point_to, write_quietly
+from .scan_object import grid_indices
+
+# The choices of a seed's ``reason``, by their numbers.
+FOUND_BY = ("hand", "pose", "homography", "appearance")
 
 
 class SeedPlace:
@@ -53,21 +59,58 @@ def seeds_of(obj, *, wanted=lambda seed: True):
 
 
 def append_seed(obj, row, col, rgb, photo=None, photo_xy=(0.0, 0.0)):
-    """Add a seed to the object and select it; ``rgb`` is of 0..1."""
-    state = obj.reflcolor
-    seed = state.seeds.add()
-    seed.row, seed.col, seed.color = row, col, rgb
-    seed.photo, seed.photo_xy = photo, photo_xy
-    state.active_seed = len(state.seeds) - 1
+    """Add a seed to the object and select it, and no other; ``rgb`` is of 0..1."""
+    seed = obj.reflcolor.seeds.add()
+    write_quietly(seed, row=row, col=col, color=tuple(rgb), photo_xy=tuple(photo_xy))
+    point_to(seed, photo=photo)
+    choose_seed(obj, len(obj.reflcolor.seeds) - 1)
     return seed
+
+
+def choose_seed(obj, index):
+    """Make a seed the one that is chosen in the list, and select no other."""
+    write_quietly(obj.reflcolor, active_seed=index)
+    select_only(obj.reflcolor.seeds, [index])
 
 
 def append_seeds(obj, seeds):
     """Add the core's Seeds to the object; photos are found by name among the .blend's images."""
+    listed = obj.reflcolor.seeds
     columns = (seeds.rows, seeds.cols, seeds.rgb / 255, np.nan_to_num(seeds.photo_xy), seeds.confidence)
     for row, col, rgb, xy, confidence, photo, reason in zip(
         *(column.tolist() for column in columns), seeds.photos, seeds.reason, strict=True
     ):
-        seed = append_seed(obj, row, col, rgb, bpy.data.images.get(photo) if photo else None, xy)
-        seed.reason = reason or "hand"
-        seed.confidence = 1.0 if np.isnan(confidence) else confidence
+        seed = listed.add()
+        write_quietly(
+            seed,
+            row=row,
+            col=col,
+            color=rgb,
+            photo_xy=xy,
+            reason=FOUND_BY.index(reason or "hand"),
+            confidence=1.0 if np.isnan(confidence) else confidence,
+        )
+        point_to(seed, photo=bpy.data.images.get(photo) if photo else None)
+    choose_seed(obj, len(listed) - 1)
+
+
+def remove_seeds(obj, indices):
+    """Take seeds off the object; the next one becomes the selected one."""
+    state = obj.reflcolor
+    for index in sorted(indices, reverse=True):
+        state.seeds.remove(index)
+    choose_seed(obj, max(0, min([state.active_seed, len(state.seeds) - 1])))
+
+
+def selected_seeds(obj):
+    """Return the indices of the object's seeds that are selected."""
+    return [index for index, seed in enumerate(obj.reflcolor.seeds) if seed.select]
+
+
+def snapped_place(obj, row, col):
+    """Return (row, col) of the pixel with a return that is nearest to a pixel of the object's grid."""
+    valid = np.zeros((obj.reflcolor.rows, obj.reflcolor.cols), bool)
+    valid[grid_indices(obj)] = True
+    if not valid.any():
+        raise SeedsError(f"{obj.name}: no pixel has a return, so no seed can be placed")
+    return nearest_valid(valid, row, col)

@@ -1,7 +1,6 @@
 """The files that only Blender writes: .blend, .glb, .ply and a rendered picture."""
 
-import json
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from io import StringIO
 
 import bpy
@@ -9,12 +8,11 @@ import bpy
 from ..reflcolor_addon.atomic import written_atomically
 from ..reflcolor_addon.errors import OutputError
 from ..reflcolor_addon.grid_mesh import grid_mesh
-from .colorize import show_colorization
+from .colorized_object import show_colorization
+from .provenance import record_provenance
 from .render import add_camera_and_lights, render
-from .scan_object import add_scan_object
+from .scan_object import CONFIDENCE, NEAREST_SEED, add_scan_object
 from .seed_list import append_seeds
-
-PROVENANCE = "reflcolor_provenance"
 
 
 def write_results(scan, colorization, paths, picture, progress, provenance):
@@ -43,7 +41,7 @@ def write_results(scan, colorization, paths, picture, progress, provenance):
     obj = add_scan_object(context, scan, grid_mesh(scan))
     append_seeds(obj, colorization.seeds)
     show_colorization(obj, colorization)
-    obj[PROVENANCE] = json.dumps(provenance)
+    record_provenance(obj, provenance)
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
     if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
         add_camera_and_lights(context, obj)
@@ -68,10 +66,28 @@ def _write_blend(path):
 
 def _write_glb(path):
     # The exporter prints its own progress, and "ERROR" for compressions that are not used here.
-    with redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+    with redirect_stdout(StringIO()), redirect_stderr(StringIO()), _named_for_gltf(bpy.context.active_object.data):
         bpy.ops.export_scene.gltf(
-            filepath=str(path), export_format="GLB", use_selection=True, export_extras=False, export_apply=False
+            filepath=str(path),
+            export_format="GLB",
+            use_selection=True,
+            export_extras=False,
+            export_apply=False,
+            export_attributes=True,
         )
+
+
+@contextmanager
+def _named_for_gltf(mesh):
+    """Call attributes, within the block, as glTF calls an application's own: it drops those of other names."""
+    names = {name: f"_{name.upper()}" for name in (CONFIDENCE, NEAREST_SEED)}
+    for name, exported in names.items():
+        mesh.attributes[name].name = exported
+    try:
+        yield
+    finally:
+        for name, exported in names.items():
+            mesh.attributes[exported].name = name
 
 
 def _write_ply(path):

@@ -2,10 +2,12 @@
 
 import bpy
 
-from . import colorize, images, scan, seeds
+from . import colorize, compare, images, legend, looking, menus, messages, provenance, scan, seeds
 
 # In the order that they are drawn in.
-_MODULES = (scan, images, seeds, colorize)
+_MODULES = (scan, images, seeds, colorize, messages, compare, looking, provenance, menus)
+# What draws or stands in menus, with register() and unregister() of its own.
+_SERVICES = (legend, menus)
 _registered = []
 
 
@@ -14,8 +16,12 @@ def register():
         for cls in module.classes:
             bpy.utils.register_class(cls)
             _registered.append(cls)
+    for service in _SERVICES:
+        service.register()
 
 
 def unregister():
+    for service in reversed(_SERVICES):
+        service.unregister()
     while _registered:
         bpy.utils.unregister_class(_registered.pop())

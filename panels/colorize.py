@@ -1,6 +1,6 @@
 """Step 4: colorize, and step 5: compare with the truth."""
 
-from ..operators import jobs
+from ..operators import jobs, live_update
 from ..reflcolor_addon.settings import PRESETS
 from .step import Step, in_both_editors, in_view
 
@@ -23,6 +23,9 @@ class Colorize(Step):
             layout.progress(factor=job.fraction, text="Cancelling" if job.stopping else job.name)
             layout.label(text="Press ESC to cancel", icon="CANCEL")
             return
+        layout.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")
+        if live_update.message():
+            layout.label(text=live_update.message(), icon="ERROR", translate=False)
         row = layout.row()
         row.scale_y = 1.5
         row.operator("reflcolor.colorize", icon="COLOR")

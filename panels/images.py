@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..operators import seed_picking
 from .step import Step, in_both_editors
 
 
@@ -22,6 +23,10 @@ class Images(Step):
 
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor
+        if seed_picking.is_open(context):
+            layout.operator("reflcolor.close_seed_picking", icon="LOOP_BACK")
+        else:
+            layout.operator("reflcolor.open_seed_picking", icon="WORKSPACE")
         layout.operator("reflcolor.open_reflectance", icon="IMAGE_REFERENCE")
         row = layout.row()
         row.template_list("REFLCOLOR_UL_photos", "", settings, "photos", settings, "active_photo", rows=2)

@@ -9,12 +9,18 @@ class REFLCOLOR_UL_seeds(bpy.types.UIList):
     """Seeds of a scan: color, number, row and column"""
 
     def draw_item(self, _context, layout, _data, seed, _icon, _active_data, _active_property, index):
-        split = layout.split(factor=0.3)
-        split.prop(seed, "color", text="")
+        split = layout.split(factor=0.2)
+        if seed.has_color:
+            split.prop(seed, "color", text="")
+        else:
+            split.label(text="", icon="QUESTION")
         row = split.row()
         row.label(text=f"{index + 1}:  {seed.row}, {seed.col}", translate=False)
+        if seed.reason != "hand":
+            row.label(text=f"{seed.confidence:.0%}", translate=False)
         if seed.photo:
             row.label(text="", icon="IMAGE_DATA")
+        row.prop(seed, "locked", text="", icon="LOCKED" if seed.locked else "UNLOCKED", emboss=False)
 
 
 class Seeds(Step):
@@ -36,6 +42,10 @@ class Seeds(Step):
         buttons.operator("reflcolor.move_seed", text="", icon="ARROW_LEFTRIGHT")
         buttons.operator("reflcolor.clear_seeds", text="", icon="TRASH")
         row = layout.row(align=True)
+        for which in ("all", "none", "unsure"):
+            row.operator("reflcolor.select_all_seeds", text=which.title()).which = which
+        row.operator("reflcolor.delete_seeds", text="", icon="X")
+        row = layout.row(align=True)
         row.operator("reflcolor.load_seeds", icon="FILE_FOLDER")
         row.operator("reflcolor.save_seeds", icon="FILE_TICK")
 
@@ -50,6 +60,10 @@ class Match(Step):
         settings = context.scene.reflcolor
         layout.prop(settings, "matching")
         layout.operator("reflcolor.match_photos", icon="VIEWZOOM")
+        row = layout.row(align=True)
+        row.operator("reflcolor.lock_seeds", icon="LOCKED")
+        row.operator("reflcolor.lock_seeds", text="Unlock", icon="UNLOCKED").unlock = True
+        layout.prop(settings, "show_matches")
         if obj is not None and settings.photos:
             pairs = sum(seed.reason == "hand" and seed.photo is not None for seed in obj.reflcolor.seeds)
             column = layout.column(align=True)

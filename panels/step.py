@@ -23,6 +23,11 @@ def in_view(step):
     return _panel(step, "VIEW_3D", "")
 
 
+def in_images(step):
+    """Return the step as a panel of the Image Editor."""
+    return _panel(step, "IMAGE_EDITOR", "_image")
+
+
 def in_both_editors(step):
     """Return the step as panels of the 3D View and of the Image Editor."""
     return _panel(step, "VIEW_3D", ""), _panel(step, "IMAGE_EDITOR", "_image")

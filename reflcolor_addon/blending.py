@@ -8,6 +8,10 @@ import numpy as np
 
 from .kernel import Mean
 
+# Of the tables of the seeds' chrominances, as in the kernel, and how many chords find how far a mean can move.
+_BINS, _CHORDS = 256, 4
+_RAISED = 1.0001
+
 
 class Blend:
     """Sums eq. 1 over seeds that come one after another; when a nearer seed comes, the sums are scaled down.
@@ -26,7 +30,7 @@ class Blend:
         self._least = np.full(shape, np.inf)
         self._nearest_seed = np.full(shape, -1, np.int32)
 
-    def add(self, distances, color):
+    def add(self, distances, color, control=None):
         """Add a seed: its (H, W) distances, infinite where it does not reach, and its two chrominances."""
         distances = np.asarray(distances, np.float64)
         nearer = distances < self._least
@@ -65,8 +69,10 @@ def blend_nearest(distances, seeds, colors, alpha):
     -------
     mean : Mean
     bound : (H, W) float32
-        The most by which the seeds left out could change either chrominance: each lies at least as far as the k-th,
-        and no color lies outside the range of the seeds' colors.
+        The most by which the seeds left out could change either chrominance, if each lies no nearer than the k-th:
+        then each has a weight from 0 to that of the k-th, w_k. If the mean m of weight W moves by t, those beyond
+        m + t have pushed it there, W t <= w_k q(t), with q(t) the sum of how far they lie beyond. q is convex, so that
+        chords between places where it is known lie above it, and where they meet W t / w_k bounds t.
     """
     colors = np.asarray(colors, np.float64)
     least = distances[..., 0].astype(np.float64)
@@ -77,11 +83,16 @@ def blend_nearest(distances, seeds, colors, alpha):
     chroma = np.moveaxis(
         (weights[..., None] * colors[seeds]).sum(axis=-2) / np.where(reached, total, 1)[..., None], -1, 0
     )
-    left_out = (len(colors) - distances.shape[-1]) * weights[..., -1]
-    farthest = np.maximum(
-        np.max(colors, axis=0)[:, None, None] - chroma, chroma - np.min(colors, axis=0)[:, None, None]
+    every = seeds.shape[-1] < len(colors)
+    each = np.where((seeds[..., -1] >= 0) & every, weights[..., -1], 0)
+    bound = np.max(
+        [
+            _shift(colors[:, i], chroma[i], seeds, np.where(reached, total, 1), each, side)
+            for i in (0, 1)
+            for side in (1, -1)
+        ],
+        axis=0,
     )
-    bound = farthest.max(axis=0) * np.maximum(left_out, 0) / np.where(reached, total + np.maximum(left_out, 0), 1)
     mean = Mean(
         chroma=np.where(reached, chroma, 0).astype(np.float32),
         weight=total.astype(np.float32),
@@ -89,6 +100,22 @@ def blend_nearest(distances, seeds, colors, alpha):
         least=distances[..., 0].copy(),
     )
     return mean, np.where(reached, bound, 0).astype(np.float32)
+
+
+def _shift(colors, mean, seeds, total, each, side):
+    """How far seeds of weights up to ``each``, but for ``seeds``, can move the mean up (side 1) or down (side -1)."""
+    colors, mean = side * colors, side * mean
+    edges = np.linspace(colors.min(), colors.max(), _BINS + 1)
+    table = _RAISED * np.maximum(colors[:, None] - edges, 0).sum(axis=0)
+    listed = np.where(seeds >= 0, np.maximum(colors[seeds] - mean[..., None], 0), 0).sum(axis=-1)
+    beyond, span = np.interp(mean, edges, table) - listed, colors.max() - mean
+    moved = (each > 0) & (beyond > 0) & (span > 0)
+    beyond, each = np.where(moved, beyond, 1), np.where(moved, each, 1)
+    t, q = np.where(moved, span, 1), np.zeros(mean.shape)
+    for _ in range(_CHORDS):
+        t = each * beyond / (total + each * (beyond - q) / t)
+        q = np.minimum(np.interp(mean + t, edges, table), total * t / each)
+    return np.where(moved, t, 0)
 
 
 def left_out(distances, seeds, colors, alpha):

@@ -1,7 +1,6 @@
 """Method 1 of the paper, holding what a scan has in common from one colorization to the next."""
 
 import os
-from collections import OrderedDict, deque
 from concurrent.futures import ThreadPoolExecutor, wait
 
 import numpy as np
@@ -11,6 +10,7 @@ from .blending import left_out
 from .colorization import Colorization
 from .engines import engine_for
 from .errors import Cancelled
+from .exact import HeldFields, add_fields, awaited
 from .graph import PixelGraph
 from .kriging import MAX_SEEDS, Kriging, pixel_features, share
 from .memory import require_memory
@@ -62,7 +62,7 @@ class Colorizer:
     def __init__(self, scan, settings=None, *, memory=_DEFAULT_MEMORY, threads=None):
         self.scan = scan
         self.threads = threads or os.cpu_count() or 1
-        self._limit = memory
+        self._fields = HeldFields(memory)
         self._luminance, reflectance_limits = normalize(scan.reflectance, scan.valid)
         self._range_image, range_limits = normalize(scan.range, scan.valid)
         self._normalization = {"reflectance": reflectance_limits, "range": range_limits}
@@ -72,7 +72,7 @@ class Colorizer:
     @property
     def held_bytes(self):
         """Bytes that the fields take now."""
-        return sum(field.nbytes for field in self._fields.values())
+        return self._fields.nbytes
 
     def colorize(self, seeds, settings=None, *, progress=None, cancelled=None):
         """Colorize the scan; parameters, result and errors are those of ``colorize``."""
@@ -144,7 +144,7 @@ class Colorizer:
                 wrap=self.scan.full_turn,
             )
         )
-        self._fields = OrderedDict()
+        self._fields.clear()
         self._forget_sums()
 
     def _forget_sums(self):
@@ -196,35 +196,20 @@ class Colorizer:
             self._forget_sums()
             self._alpha, done = self.settings.alpha, 0
             self._blend = self._engine.blend(self._alpha)
-        control = self._engine.control()
-        with ThreadPoolExecutor(self.threads, "reflcolor") as pool:
-            ahead = deque()
-            try:
-                for index in range(done, len(wanted)):
-                    while len(ahead) < self.threads and index + len(ahead) < len(wanted):
-                        ahead.append(self._field_later(pool, wanted[index + len(ahead)][0], control))
-                    field = _awaited(ahead.popleft(), control, lambda: None, cancelled)
-                    self._blend.add(field, wanted[index][1])
-                    self._blended.append(wanted[index])
-                    self._hold(wanted[index][0], field)
-                    if near is not None:
-                        near[0][:, index] = field[np.unravel_index(pixels, self.scan.shape)]
-                    progress((index + 1) / len(wanted), f"Seed {index + 1} of {len(wanted)}")
-            except BaseException:
-                control.cancel()
-                raise
+
+        def added(index, field):
+            self._blended.append(wanted[done + index])
+            if near is not None:
+                near[0][:, done + index] = field[np.unravel_index(pixels, self.scan.shape)]
+            progress(len(self._blended) / len(wanted), f"Seed {len(self._blended)} of {len(wanted)}")
+
+        arguments = {"threads": self.threads, "held": self._fields, "added": added, "cancelled": cancelled}
+        try:
+            add_fields(self._engine, self._blend, wanted[done:], **arguments)
+        except BaseException:
+            self._forget_sums()
+            raise
         return self._blend.mean(), near
-
-    def _field_later(self, pool, pixel, control):
-        field = self._fields.get(pixel)
-        return pool.submit(self._engine.field, pixel, control) if field is None else pool.submit(lambda: field)
-
-    def _hold(self, pixel, field):
-        """Keep a field, the newest last, as far as the memory goes."""
-        self._fields[pixel] = field
-        self._fields.move_to_end(pixel)
-        while self._fields and self.held_bytes > self._limit:
-            self._fields.popitem(last=False)
 
     def _nearest(self, pixels, chrominance, k, progress, cancelled):
         control = self._engine.control()
@@ -236,7 +221,7 @@ class Colorizer:
         with ThreadPoolExecutor(1, "reflcolor") as pool:
             later = pool.submit(self._engine.nearest, pixels, chrominance, alpha, k, control)
             try:
-                return _awaited(later, control, tell, cancelled)
+                return awaited(later, control, tell, cancelled)
             except BaseException:
                 control.cancel()
                 raise
@@ -272,15 +257,3 @@ class Colorizer:
                 raise
         estimate = np.moveaxis(estimate.reshape(*self.scan.shape, 2), -1, 0)
         return estimate, share(kriging.residuals, path_residuals, self.settings.kriging)
-
-
-def _awaited(later, control, tell, cancelled):
-    """The result of a future; the caller's own thread asks ``cancelled()`` and tells the progress meanwhile."""
-    while True:
-        if cancelled():
-            control.cancel()
-            wait([later])
-            raise Cancelled
-        if later in wait([later], _POLL_S).done:
-            return later.result()
-        tell()

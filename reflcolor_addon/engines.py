@@ -53,9 +53,8 @@ class NativeEngine:
 
         The last are (S, k) distances and (S, k) seeds.
         """
-        distances, seeds = kernel.nearest(self._graph, pixels, k, control=control)
-        place = np.unravel_index(pixels, self.shape)
-        return *kernel.blend_nearest(distances, seeds, colors, alpha), (distances[place], seeds[place])
+        found = kernel.nearest(self._graph, pixels, k, control=control)
+        return *found.blend(colors, alpha, control=control), found.at(pixels)
 
 
 class ScipyEngine:

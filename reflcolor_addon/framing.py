@@ -30,6 +30,23 @@ class View:
     target: np.ndarray
     fov_deg: float
 
+    def distance_through(self, fov_deg):
+        """Return how far from the target, in metres, a lens of another field of view (degrees) shows as much of it."""
+        wanted, given = (np.tan(np.radians(min(angle, 170.0)) / 2) for angle in (self.fov_deg, fov_deg))
+        return float(np.linalg.norm(self.target - self.position) * wanted / given)
+
+    def target_beside(self, distance, fov_deg, covered):
+        """Return the (3,) place to look at so that the target is in the middle of what is not covered of a picture.
+
+        ``covered`` is the share of its width that is hidden at its right; the picture has the field of view ``fov_deg``
+        across and is taken from ``distance`` metres.
+        """
+        forward = self.target - self.position
+        right = np.cross(forward, [0.0, 0.0, 1.0])
+        length = np.linalg.norm(right)
+        across = 2 * distance * np.tan(np.radians(fov_deg) / 2)
+        return self.target + (right / length * across * covered / 2 if length > 1e-9 else 0.0)
+
 
 def frame(points, scanner, *, aspect):
     """Return a view that shows all of a scan's surface from the side that was scanned.

@@ -4,8 +4,9 @@ import hashlib
 import importlib.metadata
 import math
 import platform
+from datetime import UTC, datetime
 
-from .errors import ReflcolorError
+from .errors import Cancelled, ReflcolorError
 from .normalization import PERCENTILES
 from .version import __version__
 
@@ -16,24 +17,25 @@ _PACKAGES = ("numpy", "scipy", "scikit-image", "opencv-python-headless", "pye57"
 _CHUNK_BYTES = 1 << 20
 
 
-def build_report(scan, colorization, settings, *, index, given_seeds, inputs, outputs, photos=(), blender=None):
+def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(), photos=(), noticed=(), blender=None):
     """Describe a colorization; the same work on the same machine gives the same report.
 
     Parameters
     ----------
-    scan : Scan
+    scan : dict
+        From `scan_entry`.
     colorization : Colorization
     settings : Settings
-    index : int
-        The scan's place in its file, from 1.
     given_seeds : Seeds
         The seeds before any was moved.
-    inputs : list of (str, Path)
-        What the file is for ("scan", "seeds", "photo"), and the file.
-    outputs : list of (str, Path)
+    inputs : list of dict
+        From `input_entry`.
+    outputs : sequence of (str, Path)
         The option that asked for it, and the file.
-    photos : sequence of PhotoMatch
-        What became of each photo that seeds were looked for in.
+    photos : sequence of dict
+        From `photo_entry`: what became of each photo that seeds were looked for in.
+    noticed : sequence of str
+        Warnings from before the colorization.
     blender : str, optional
         Blender's version.
 
@@ -41,45 +43,73 @@ def build_report(scan, colorization, settings, *, index, given_seeds, inputs, ou
     -------
     dict
         Ready for JSON, with no number that is not finite.
-
-    Raises
-    ------
-    ReflcolorError
-        If an input can no longer be read.
     """
-    rows, columns = scan.shape
+    colored = int((colorization.nearest_seed >= 0).sum())
     return {
         "format": FORMAT,
         "version": VERSION,
-        "scan": {
-            "name": scan.name,
-            "index": index,
-            "rows": rows,
-            "columns": columns,
-            "returns": int(scan.valid.sum()),
-            "full_turn": scan.full_turn,
-        },
+        "scan": scan,
         "settings": settings.as_dict(),
         "seeds": seed_entries(colorization.seeds, given_seeds),
-        "photos": [
-            {"name": photo.name, "verified": photo.verified, "reason": photo.reason, "note": photo.note}
-            for photo in photos
-        ],
+        "photos": list(photos),
         "normalization": {
             "percentiles": list(PERCENTILES),
             "reflectance": list(colorization.normalization["reflectance"]),
             "range_m": list(colorization.normalization["range"]),
         },
-        "result": {
-            "colored": int((colorization.nearest_seed >= 0).sum()),
-            "unreached": int((scan.valid & (colorization.nearest_seed < 0)).sum()),
-        },
+        "result": {"colored": colored, "unreached": scan["returns"] - colored},
         "method": colorization.method,
-        "warnings": [*scan.warnings, *colorization.warnings],
-        "inputs": [{"role": role, "path": str(path)} | fingerprint(path) for role, path in inputs],
+        "warnings": [*noticed, *colorization.warnings],
+        "inputs": list(inputs),
         "outputs": [{"option": option, "path": str(path)} for option, path in outputs],
         "versions": versions(blender),
     }
+
+
+def stamped(report):
+    """Return the report with the time that it is now, as ``created``, in UTC."""
+    return report | {"created": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")}
+
+
+def scan_entry(scan, index, flipped=()):
+    """Return what a report says of a scan.
+
+    Parameters
+    ----------
+    scan : Scan
+    index : int
+        The scan's place in its file, from 1.
+    flipped : sequence of {"vertical", "horizontal"}
+        How its grid was turned after it was read.
+    """
+    rows, columns = scan.shape
+    return {
+        "name": scan.name,
+        "index": index,
+        "rows": rows,
+        "columns": columns,
+        "returns": int(scan.valid.sum()),
+        "full_turn": scan.full_turn,
+        "flipped": list(flipped),
+    }
+
+
+def input_entry(role, path, cancelled=None):
+    """Return what a report says of an input: what it is for ("scan", "seeds", "photo"), where it is, size and hash.
+
+    Raises
+    ------
+    ReflcolorError
+        If it cannot be read.
+    Cancelled
+        If ``cancelled()`` returned True.
+    """
+    return {"role": role, "path": str(path)} | fingerprint(path, cancelled)
+
+
+def photo_entry(photo):
+    """Return what a report says of a PhotoMatch."""
+    return {"name": photo.name, "verified": photo.verified, "reason": photo.reason, "note": photo.note}
 
 
 def seed_entries(seeds, given):
@@ -99,18 +129,14 @@ def seed_entries(seeds, given):
     return entries
 
 
-def fingerprint(path):
-    """Return the size and the SHA-256 of a file, as ``{"bytes": ..., "sha256": ...}``.
-
-    Raises
-    ------
-    ReflcolorError
-        If it cannot be read.
-    """
+def fingerprint(path, cancelled=None):
+    """Return the size and the SHA-256 of a file, as ``{"bytes": ..., "sha256": ...}``; raises as `input_entry`."""
     digest, size = hashlib.sha256(), 0
     try:
         with path.open("rb") as file:
             while chunk := file.read(_CHUNK_BYTES):
+                if cancelled is not None and cancelled():
+                    raise Cancelled
                 digest.update(chunk)
                 size += len(chunk)
     except OSError as error:

@@ -86,6 +86,19 @@ class Seeds:
     def __len__(self):
         return self.rows.size
 
+    def chosen(self, indices):
+        """Return the seeds of these indices, in their order."""
+        indices = np.asarray(indices, np.int64)
+        return Seeds(
+            rows=self.rows[indices],
+            cols=self.cols[indices],
+            rgb=self.rgb[indices],
+            photos=[self.photos[index] for index in indices],
+            photo_xy=self.photo_xy[indices],
+            confidence=self.confidence[indices],
+            reason=[self.reason[index] for index in indices],
+        )
+
     @classmethod
     def load(cls, path, photos=()):
         """Read seeds from a JSON file.
@@ -162,7 +175,7 @@ class Seeds:
                     f"(rows 0 to {height - 1}, columns 0 to {width - 1})"
                 )
             if not scan.valid[row, col]:
-                rows[index], cols[index] = nearest_valid(scan, row, col)
+                rows[index], cols[index] = nearest_valid(scan.valid, row, col, wrap=scan.full_turn)
                 warnings.append(
                     f"seed {index + 1}: no return at row {row}, column {col}; "
                     f"moved to row {rows[index]}, column {cols[index]}"
@@ -170,27 +183,34 @@ class Seeds:
         return replace(self, rows=rows, cols=cols), warnings
 
 
-def nearest_valid(scan, row, col):
+def nearest_valid(valid, row, col, *, wrap=False):
     """Return (row, col) of the pixel with a return that is nearest in the grid; the first in reading order of several.
 
-    The scan must have a return somewhere. On a full-turn scan the search goes around.
+    Parameters
+    ----------
+    valid : (H, W) bool
+        True somewhere.
+    row, col : int
+        Inside the grid.
+    wrap : bool
+        Whether the left and the right edge are neighbors.
     """
-    height, width = scan.shape
-    radius = 1
+    height, width = valid.shape
+    radius = 0
     while True:
         rows = np.arange(max(0, row - radius), min(height, row + radius + 1))
-        if scan.full_turn:
+        if wrap:
             # Each column once, the way around that is shorter.
             cols = np.arange(col - min(radius, (width - 1) // 2), col + min(radius, width // 2) + 1)
         else:
             cols = np.arange(max(0, col - radius), min(width, col + radius + 1))
-        found_rows, found_cols = np.nonzero(scan.valid[np.ix_(rows, cols % width)])
+        found_rows, found_cols = np.nonzero(valid[np.ix_(rows, cols % width)])
         squared = (rows[found_rows] - row) ** 2 + (cols[found_cols] - col) ** 2
         # A nearer pixel can still lie outside the square than one in its corner.
         if squared.size and (squared.min() <= radius**2 or radius >= max(height, width)):
             best = np.lexsort((cols[found_cols] % width, rows[found_rows], squared))[0]
             return int(rows[found_rows[best]]), int(cols[found_cols[best]] % width)
-        radius *= 2
+        radius = max(1, 2 * radius)
 
 
 def find_photo(name, seeds_path, photos):

@@ -46,7 +46,9 @@ def blender_door(**acts):
     def cannot(*_arguments):
         raise AssertionError("was not to be called")
 
-    return BlenderDoor(version="5.2.2 LTS", **{"write_scene": cannot, "simulate": cannot} | acts)
+    return BlenderDoor(
+        version="5.2.2 LTS", **dict.fromkeys(("write_scene", "simulate", "read_provenance"), cannot) | acts
+    )
 
 
 def process_line(*arguments):

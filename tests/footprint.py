@@ -13,6 +13,8 @@ def footprint(bpy) -> dict:
             f"{name}.draw: {_place(function)}"
             for name, cls in classes.items()
             for function in getattr(getattr(cls, "draw", None), "_draw_funcs", ())
+            # Blender lists a class's own function once another one was added, and leaves it listed.
+            if function.__qualname__ != f"{name}.draw"
         ),
         "handlers": sorted(
             f"{kind}: {_place(function)}"

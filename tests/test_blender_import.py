@@ -112,7 +112,9 @@ def test_reflectance_and_range_images_stay_in_the_file(blender, small, tmp_path)
     state = blender.context.active_object.reflcolor
     for image in (state.reflectance_image, state.range_image):
         assert image.packed_file and tuple(image.size) == (10, 6)
-        assert image.colorspace_settings.is_data
+    # The reflectance is to be looked at, beside its colors; the range is numbers.
+    assert not state.reflectance_image.colorspace_settings.is_data
+    assert state.range_image.colorspace_settings.is_data
     shown = pixels(state.reflectance_image)[..., 0]
     assert shown[0, 0] == 0 and shown[5, 9] == 1 and shown[2, 3] == 0
 

@@ -80,16 +80,44 @@ def test_the_blend_holds_the_colors_and_is_ready_to_render(results, tmp_path):
 
 def test_the_glb_holds_the_colors(results):
     folder, rgb = results
-    positions, colors = glb_vertices(folder / "wall.glb")
+    # They are linear.
+    colors = glb_attribute(folder / "wall.glb", "COLOR_0")[:, :3]
+    assert np.abs(encoded(colors) - rgb[glb_places(folder)]).max() <= 1
+
+
+@pytest.fixture(scope="module")
+def trust(results):
+    """Confidence and index of the nearest seed, of every vertex, by the core."""
+    folder, _ = results
     (scan,) = read_scans(folder / "w.ptx")
-    # glTF has Y up, and its colors are linear.
-    world = positions[:, [0, 2, 1]] * (1, -1, 1)
-    vertex = np.argmin(((world[:, None] - scan.points[scan.valid][None]) ** 2).sum(axis=-1), axis=1)
-    assert np.abs(encoded(colors) - rgb[vertex]).max() <= 1
+    result = colorize(scan, Seeds.load(folder / "seeds.json"))
+    return result.confidence[scan.valid], result.nearest_seed[scan.valid]
+
+
+def test_the_glb_holds_confidence_and_nearest_seed(results, trust):
+    vertex = glb_places(results[0])
+    confidence, nearest = (
+        glb_attribute(results[0] / "wall.glb", name)[:, 0] for name in ("_CONFIDENCE", "_NEAREST_SEED")
+    )
+    np.testing.assert_allclose(confidence, trust[0][vertex], rtol=1e-4)
+    np.testing.assert_array_equal(nearest, trust[1][vertex])
+
+
+def test_the_ply_holds_confidence_and_nearest_seed(results, trust):
+    table, vertex = ply_vertices(results[0])
+    np.testing.assert_allclose(table["confidence"], trust[0][vertex], rtol=1e-4)
+    np.testing.assert_array_equal(table["nearest_seed"], trust[1][vertex])
 
 
 def test_the_ply_holds_the_colors(results):
     folder, rgb = results
+    table, vertex = ply_vertices(folder)
+    colors = np.stack([table["red"], table["green"], table["blue"]], axis=-1).astype(int)
+    assert np.abs(colors - rgb[vertex]).max() <= 1
+
+
+def ply_vertices(folder):
+    """The table of the PLY's vertices, and which return of the scan each of them is."""
     header, _, body = (folder / "wall.ply").read_bytes().partition(b"end_header\n")
     names = [line.split()[-1].decode() for line in header.splitlines() if line.startswith(b"property")]
     kinds = [line.split()[1].decode() for line in header.splitlines() if line.startswith(b"property")]
@@ -105,9 +133,8 @@ def test_the_ply_holds_the_colors(results):
     (scan,) = read_scans(folder / "w.ptx")
     world = np.stack([table["x"], table["y"], table["z"]], axis=-1)
     vertex = np.argmin(((world[:, None] - scan.points[scan.valid][None]) ** 2).sum(axis=-1), axis=1)
-    colors = np.stack([table["red"], table["green"], table["blue"]], axis=-1).astype(int)
     assert np.abs(world - scan.points[scan.valid][vertex]).max() < 1e-4
-    assert np.abs(colors - rgb[vertex]).max() <= 1
+    return table, vertex
 
 
 def test_the_render_shows_the_mesh_large_and_in_its_colors(results):
@@ -132,24 +159,28 @@ def test_an_unwritable_place_is_refused_before_the_work(blender_command, results
     assert "Traceback" not in done.stderr and "missing" in done.stderr.strip().splitlines()[-1]
 
 
-def glb_vertices(path):
-    """(N, 3) positions and (N, 3) linear colors of the only primitive of a GLB."""
+def glb_places(folder):
+    """Which return of the scan each vertex of the GLB is."""
+    (scan,) = read_scans(folder / "w.ptx")
+    # glTF has Y up.
+    world = glb_attribute(folder / "wall.glb", "POSITION")[:, [0, 2, 1]] * (1, -1, 1)
+    return np.argmin(((world[:, None] - scan.points[scan.valid][None]) ** 2).sum(axis=-1), axis=1)
+
+
+def glb_attribute(path, name):
+    """(N, width) values of an attribute of the only primitive of a GLB."""
     data = Path(path).read_bytes()
     length = struct.unpack("<I", data[12:16])[0]
     document, binary = json.loads(data[20 : 20 + length]), data[28 + length :]
     (mesh,) = document["meshes"]
     (primitive,) = mesh["primitives"]
-
-    def read(name):
-        accessor = document["accessors"][primitive["attributes"][name]]
-        view = document["bufferViews"][accessor["bufferView"]]
-        kind = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}[accessor["componentType"]]
-        width = {"VEC3": 3, "VEC4": 4}[accessor["type"]]
-        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        array = np.frombuffer(binary, kind, accessor["count"] * width, start).reshape(-1, width)
-        return array / np.iinfo(kind).max if accessor.get("normalized") else array
-
-    return read("POSITION"), read("COLOR_0")[:, :3]
+    accessor = document["accessors"][primitive["attributes"][name]]
+    view = document["bufferViews"][accessor["bufferView"]]
+    kind = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}[accessor["componentType"]]
+    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor["type"]]
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    array = np.frombuffer(binary, kind, accessor["count"] * width, start).reshape(-1, width)
+    return array / np.iinfo(kind).max if accessor.get("normalized") else array
 
 
 def encoded(linear):

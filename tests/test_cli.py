@@ -39,6 +39,7 @@ def test_colorize_writes_the_same_bytes_each_time_and_only_the_times_of_the_repo
         assert run_cli(*COLORIZE, "-o", "a.png", "-o", "b.png", "--report", "report.json")[0] == 0
         report = json.loads((cli_folder / "report.json").read_text(encoding="utf-8"))
         assert set(report.pop("times_s")) == {"seeds", "read", "colorize", "write"}
+        assert report.pop("created").endswith("Z")
         contents.append(((cli_folder / "a.png").read_bytes(), (cli_folder / "b.png").read_bytes(), json.dumps(report)))
     assert contents[0] == contents[1]
     assert contents[0][0] == contents[0][1]

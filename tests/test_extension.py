@@ -209,4 +209,5 @@ def test_every_class_is_registered(blender):
         if isinstance(cls, type) and (name.startswith("REFLCOLOR_") or issubclass(cls, blender.types.PropertyGroup))
     } - {blender.types.PropertyGroup}
     assert len(defined) > 20
-    assert [cls.__name__ for cls in defined if not cls.is_registered] == []
+    # Gizmos do not tell whether they are.
+    assert [cls.__name__ for cls in defined if not getattr(cls, "is_registered", True)] == []

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from small_graphs import small_graphs
 
 from reflcolor_addon import kernel
-from reflcolor_addon.errors import Cancelled, ReflcolorError
+from reflcolor_addon.errors import ReflcolorError
 from reflcolor_addon.reference import reference_blend
 
 ALPHAS = st.sampled_from([0.0, 0.5, 1.0, 2.5, 6.0, 20.0])
@@ -19,11 +19,19 @@ def random_colors(count):
     return np.random.default_rng(count).random((count, 2)) * 255
 
 
+def blend_all(small, colors, alpha):
+    """The mean over all seeds, one field after another."""
+    blend = kernel.Blend(small.valid.shape, alpha)
+    for field, color in zip(small.fields(), colors, strict=True):
+        blend.add(field, color)
+    return blend.mean()
+
+
 @settings(max_examples=500)
 @given(small_graphs(), ALPHAS)
 def test_blending_all_seeds_is_the_reference(small, alpha):
     colors = random_colors(len(small.pixels))
-    mean = kernel.blend_all(small.kernel_graph(), small.pixels, colors, alpha)
+    mean = blend_all(small, colors, alpha)
     fields = small.fields().astype(np.float64)
     expected = reference_blend(fields, colors.astype(np.float32), alpha)
     reached = mean.weight > 0
@@ -37,52 +45,47 @@ def test_blending_all_seeds_is_the_reference(small, alpha):
 @given(small_graphs(), ALPHAS)
 def test_blending_as_many_nearest_as_there_are_seeds_is_blending_all(small, alpha):
     colors, graph = random_colors(len(small.pixels)), small.kernel_graph()
-    every = kernel.blend_all(graph, small.pixels, colors, alpha)
-    mean, bound = kernel.blend_nearest(*kernel.nearest(graph, small.pixels, len(colors)), colors, alpha)
+    every = blend_all(small, colors, alpha)
+    mean, bound = kernel.nearest(graph, small.pixels, len(colors)).blend(colors, alpha)
     np.testing.assert_allclose(mean.chroma, every.chroma, atol=TOLERANCE)
     np.testing.assert_array_equal(mean.least, every.least)
     assert (bound == 0).all()
 
 
-@settings(max_examples=300)
+@settings(max_examples=1000)
 @given(small_graphs(seeds=12), st.integers(1, 6), ALPHAS)
 def test_the_bound_holds(small, k, alpha):
     colors, graph = random_colors(len(small.pixels)), small.kernel_graph()
-    every = kernel.blend_all(graph, small.pixels, colors, alpha)
-    mean, bound = kernel.blend_nearest(*kernel.nearest(graph, small.pixels, k), colors, alpha)
+    every = blend_all(small, colors, alpha)
+    mean, bound = kernel.nearest(graph, small.pixels, k).blend(colors, alpha)
     assert (np.abs(mean.chroma - every.chroma) <= bound + TOLERANCE).all()
+
+
+def test_the_bound_is_what_the_worst_seeds_at_the_last_distance_do():
+    """One row: seed 0 near, seed 1 kept, and seeds as far as that on its other side, left out."""
+    luminance = np.array([[2, 0, 1]], np.float32)
+    graph = kernel.Graph(luminance, luminance * 0, luminance >= 0)
+    # From pixel 1, pixel 2 is 1 away and pixel 0 twice that; k = 2 keeps the seeds of color 0 and 8.
+    colors = np.array([[0, 0], [8, 0], [8, 0], [16, 0]], np.float32)
+    mean, bound = kernel.nearest(graph, [2, 0, 0, 0], 2).blend(colors, 1.0)
+    every = kernel.Blend((1, 3), 1.0)
+    for pixel, color in zip([2, 0, 0, 0], colors, strict=True):
+        every.add(kernel.field(graph, pixel), color)
+    # All left out have the weight of the last kept one, and lie to one side, as the bound assumes.
+    off = every.mean().chroma[0, 0, 1] - mean.chroma[0, 0, 1]
+    assert off == pytest.approx((0.5 * 8 * 2 + 0.5 * 16) / 2.5 - 0.5 * 8 / 1.5)
+    assert off <= bound[0, 1] <= 1.1 * off
 
 
 def test_seeds_at_distance_zero_share_a_pixel_equally():
     flat = np.zeros((2, 3), np.float32)
-    mean = kernel.blend_all(kernel.Graph(flat, flat, flat == 0), [0, 3, 5], [[0, 30], [30, 0], [60, 60]], 6.0)
+    field = kernel.field(kernel.Graph(flat, flat, flat == 0), 0)
+    blend = kernel.Blend((2, 3), 6.0)
+    for color in ([0, 30], [30, 0], [60, 60]):
+        blend.add(field, color)
+    mean = blend.mean()
     np.testing.assert_allclose(mean.chroma, np.full((2, 2, 3), 30.0))
     assert (mean.weight == 3).all()
-
-
-@pytest.mark.parametrize("alpha", [6.0, 2.5])
-def test_the_number_of_threads_changes_no_bit(alpha):
-    random = np.random.default_rng(1)
-    luminance, range_image = (random.random((2, 60, 80)) * 255).astype(np.float32)
-    valid = random.random((60, 80)) < 0.9
-    graph = kernel.Graph(luminance, range_image, valid)
-    pixels = random.choice(np.flatnonzero(valid), 40)
-    runs = [kernel.blend_all(graph, pixels, random_colors(40), alpha, threads=threads) for threads in (1, 2, 3, 50)]
-    for run in runs[1:]:
-        for one, other in zip(runs[0], run, strict=True):
-            np.testing.assert_array_equal(one, other)
-
-
-@pytest.mark.parametrize("threads", [1, 3])
-def test_an_error_while_blending_reaches_the_caller_and_ends_every_thread(threads):
-    flat = np.zeros((5, 5), np.float32)
-
-    def stop(blended):
-        raise Cancelled
-
-    graph = kernel.Graph(flat, flat, flat == 0)
-    with pytest.raises(Cancelled):
-        kernel.blend_all(graph, np.arange(20), np.zeros((20, 2)), 6.0, threads=threads, finished=stop)
 
 
 @pytest.mark.parametrize("alpha", [-1, np.nan, np.inf])
@@ -93,17 +96,10 @@ def test_an_exponent_out_of_its_range_is_refused(alpha):
 
 def test_colors_that_do_not_fit_the_seeds_are_refused():
     flat = np.zeros((2, 2), np.float32)
-    graph = kernel.Graph(flat, flat, flat == 0)
-    with pytest.raises(ReflcolorError, match=r"\(2, 2\)"):
-        kernel.blend_all(graph, [0, 1], [[1, 2]], 6.0)
+    found = kernel.nearest(kernel.Graph(flat, flat, flat == 0), [0, 1], 2)
+    with pytest.raises(ReflcolorError, match="seeds, 2"):
+        found.blend([1, 2], 6.0)
     with pytest.raises(ReflcolorError, match="finite"):
-        kernel.blend_all(graph, [0], [[np.nan, 2]], 6.0)
-
-
-def test_arrays_that_did_not_come_from_the_kernel_are_refused():
-    flat = np.zeros((2, 2), np.float32)
-    distances, seeds = kernel.nearest(kernel.Graph(flat, flat, flat == 0), [0], 2)
-    with pytest.raises(ReflcolorError, match="returned"):
-        kernel.blend_nearest(distances.copy(), seeds, [[1, 2]], 6.0)
+        found.blend([[np.nan, 2], [1, 1]], 6.0)
     with pytest.raises(ReflcolorError, match="seed"):
-        kernel.blend_nearest(*kernel.nearest(kernel.Graph(flat, flat, flat == 0), [0, 1], 2), [[1, 2]], 6.0)
+        found.blend([[1, 2]], 6.0)

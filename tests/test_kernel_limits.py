@@ -12,15 +12,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reflcolor_addon import kernel
+from reflcolor_addon import kernel, kernel_library
+from reflcolor_addon.engines import NativeEngine
 from reflcolor_addon.errors import Cancelled
+from reflcolor_addon.exact import HeldFields, add_fields
+from reflcolor_addon.graph import PixelGraph
 
 KERNEL = Path(__file__).resolve().parent.parent / "kernel"
+# Cells grow in bands of single rows, so that small images have many.
+NARROW_BANDS = ("-DRC_BAND_PIXELS=1", "-DRC_BAND_CELLS=0")
 
 
 @pytest.fixture
 def library():
-    return kernel._library()
+    return kernel_library.library()
 
 
 @pytest.mark.parametrize(
@@ -32,14 +37,15 @@ def test_a_size_that_is_no_size_or_too_large_is_refused_by_a_code(library, heigh
 
 
 def test_null_pointers_are_refused_by_a_code(library):
-    graph = kernel._CGraph(2, 2, 8, 0, 1.0, 0.0, None, None)
+    graph = kernel_library.CGraph(2, 2, 8, 0, 1.0, 0.0, None, None)
     assert library.rc_field(None, 1, None, None, None, None) == -1
     assert library.rc_field(graph, 1, None, None, None, None) == -1
     assert library.rc_nearest(graph, 1, None, 1, None, None) == -1
-    assert library.rc_graph_fill(2, 2, 0, None, 2, None, 2, None, 2, None, None) == -1
-    assert library.rc_blend_add(2, 2, None, 2, 6.0, 0, 0.0, 0.0, *[None] * 5) == -1
+    assert library.rc_graph_fill(2, 2, 0, None, 2, None, 2, None, 2, None, None, None) == -1
+    assert library.rc_blend_add(2, 2, None, 2, 6.0, 0, 0.0, 0.0, *[None] * 6) == -1
     assert library.rc_blend_finish(4, None, None, None) == -1
-    assert library.rc_blend_nearest(2, 2, 0, 2, 1, None, 1, None, 6.0, *[None] * 4) == -1
+    assert library.rc_blend_nearest(None, 0, 2, 1, None, 1, None, 6.0, *[None] * 6) == -1
+    assert library.rc_blend_nearest(graph, 0, 2, 1, None, 1, None, 6.0, *[None] * 6) == -1
 
 
 def test_a_seed_count_that_is_no_count_is_refused_by_a_code(library):
@@ -51,20 +57,31 @@ def test_a_seed_count_that_is_no_count_is_refused_by_a_code(library):
 
 
 @pytest.fixture(scope="module")
-def large_graph():
+def large_images():
     random = np.random.default_rng(0)
-    luminance, range_image = (random.random((2, 2000, 2000)) * 255).astype(np.float32)
-    return kernel.Graph(luminance, range_image, np.ones((2000, 2000), bool))
+    return *(random.random((2, 2000, 2000)) * 255).astype(np.float32), np.ones((2000, 2000), bool)
 
 
-@pytest.mark.parametrize("call", ["field", "nearest", "blend_all"])
-def test_a_running_call_stops_within_50_ms(large_graph, call):
+@pytest.fixture(scope="module")
+def large_graph(large_images):
+    return kernel.Graph(*large_images)
+
+
+@pytest.mark.parametrize("call", ["graph", "field", "nearest", "blend", "exact"])
+def test_a_running_call_stops_within_50_ms(large_images, large_graph, call):
     control = kernel.Control()
     pixels = np.arange(0, 4_000_000, 40_000)
+    luminance, range_image, valid = large_images
+    engine = NativeEngine(PixelGraph(luminance=luminance, range_image=range_image, valid=valid))
+    sums, flat = kernel.Blend(valid.shape, 6.0), np.zeros(valid.shape, np.float32)
+    seeds = [(int(pixel), (0.0, 0.0)) for pixel in pixels]
+    once = {"threads": 2, "held": HeldFields(0), "added": lambda index, field: None}
     calls = {
+        "graph": lambda: [kernel.Graph(*large_images, control=control) for _ in range(500)],
         "field": lambda: [kernel.field(large_graph, 0, control=control) for _ in range(50)],
         "nearest": lambda: kernel.nearest(large_graph, pixels, 8, control=control),
-        "blend_all": lambda: kernel.blend_all(large_graph, pixels, np.zeros((100, 2)), 6.0, threads=2, control=control),
+        "blend": lambda: [sums.add(flat, (0, 0), control) for _ in range(500)],
+        "exact": lambda: add_fields(engine, sums, seeds, cancelled=lambda: control.cancelled, **once),
     }
     before = threading.active_count()
     moment = []
@@ -133,30 +150,30 @@ def run_fuzz(compiler, tmp_path, *options, rounds):
     return done.stdout
 
 
-@pytest.mark.parametrize("lanes", [(), ("-DRC_SCALAR",)], ids=["vector", "scalar"])
-def test_random_sizes_and_strides_pass_the_sanitizers(tmp_path, lanes):
+@pytest.mark.parametrize("options", [(), ("-DRC_SCALAR",), NARROW_BANDS], ids=["vector", "scalar", "bands"])
+def test_random_sizes_and_strides_pass_the_sanitizers(tmp_path, options):
     compiler = sanitizing_compiler(tmp_path)
     sanitize = ("-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
-    run_fuzz([compiler], tmp_path, *sanitize, *lanes, rounds=1500)
+    run_fuzz([compiler], tmp_path, *sanitize, *options, rounds=1500)
 
 
 def test_every_optimization_and_instruction_set_gives_the_same_bits(tmp_path):
     zig = [sys.executable, "-m", "ziglang", "cc"]
     if subprocess.run([*zig, "--version"], capture_output=True, check=False).returncode:
         pytest.skip("no ziglang")
-    variants = [("-O2",), ("-O0",), ("-O3", "-DRC_SCALAR")]
+    variants = [("-O2",), ("-O0",), ("-O3", "-DRC_SCALAR"), ("-O2", *NARROW_BANDS)]
     hashes = {run_fuzz(zig, tmp_path, "-fno-sanitize=all", *options, rounds=1000) for options in variants}
     assert len(hashes) == 1
 
 
 def test_a_kernel_of_another_interface_is_not_used(monkeypatch):
-    kernel._load.cache_clear()
-    monkeypatch.setattr(kernel, "ABI_VERSION", 999)
+    kernel_library._load.cache_clear()
+    monkeypatch.setattr(kernel_library, "ABI_VERSION", 999)
     try:
         assert not kernel.available()
         assert "999" in kernel.reason()
     finally:
-        kernel._load.cache_clear()
+        kernel_library._load.cache_clear()
 
 
 @pytest.mark.parametrize("content", [b"", b"not a library"])
@@ -166,13 +183,13 @@ def test_a_library_that_does_not_load_is_a_reason_and_no_crash(monkeypatch, tmp_
     library = tmp_path / "library"
     library.write_bytes(content)
     monkeypatch.setattr(reflcolor_kernel, "library_path", lambda: library)
-    kernel._load.cache_clear()
+    kernel_library._load.cache_clear()
     try:
         assert "does not load" in kernel.reason()
     finally:
-        kernel._load.cache_clear()
+        kernel_library._load.cache_clear()
 
 
 def test_the_interface_is_plain_c(library):
     assert library.rc_abi_version() == kernel.ABI_VERSION
-    assert ctypes.sizeof(kernel._CGraph) == 48
+    assert ctypes.sizeof(kernel_library.CGraph) == 48

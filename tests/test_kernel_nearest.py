@@ -20,7 +20,8 @@ def of_listed(fields, seeds):
 @settings(max_examples=1000)
 @given(small_graphs(seeds=9), st.integers(1, 12))
 def test_the_distances_are_the_k_least_of_all_fields_to_the_bit(small, k):
-    distances, seeds = kernel.nearest(small.kernel_graph(), small.pixels, k)
+    found = kernel.nearest(small.kernel_graph(), small.pixels, k)
+    distances, seeds = found.distances, found.seeds
     fields = small.fields()
     least = np.full((*small.valid.shape, k), np.inf, np.float32)
     ordered = np.sort(np.moveaxis(fields, 0, -1), axis=-1)[..., :k]
@@ -33,7 +34,8 @@ def test_the_distances_are_the_k_least_of_all_fields_to_the_bit(small, k):
 @settings(max_examples=300)
 @given(small_graphs(seeds=9), st.integers(1, 12))
 def test_no_seed_is_listed_twice_and_equals_stand_in_order(small, k):
-    distances, seeds = kernel.nearest(small.kernel_graph(), small.pixels, k)
+    found = kernel.nearest(small.kernel_graph(), small.pixels, k)
+    distances, seeds = found.distances, found.seeds
     for own, listed in zip(distances.reshape(-1, k), seeds.reshape(-1, k), strict=True):
         found = listed[listed >= 0]
         assert len(set(found)) == len(found)
@@ -44,7 +46,8 @@ def test_no_seed_is_listed_twice_and_equals_stand_in_order(small, k):
 @settings(max_examples=200)
 @given(small_graphs(seeds=5), st.integers(1, 5))
 def test_the_distances_are_the_reference(small, k):
-    distances, seeds = kernel.nearest(small.kernel_graph(), small.pixels, k)
+    found = kernel.nearest(small.kernel_graph(), small.pixels, k)
+    distances, seeds = found.distances, found.seeds
     images = small.luminance, small.range_image, small.valid
     sources = [divmod(int(pixel), small.valid.shape[1]) for pixel in small.pixels]
     fields = np.stack([reference_distances(*images, source, **small.settings) for source in sources])
@@ -53,8 +56,8 @@ def test_the_distances_are_the_reference(small, k):
 
 def test_on_a_flat_image_the_first_seeds_win():
     flat = np.zeros((4, 5), np.float32)
-    _, seeds = kernel.nearest(kernel.Graph(flat, flat, flat == 0), [19, 0, 7, 7, 3], 3)
-    assert (seeds == [0, 1, 2]).all()
+    found = kernel.nearest(kernel.Graph(flat, flat, flat == 0), [19, 0, 7, 7, 3], 3)
+    assert (found.seeds == [0, 1, 2]).all()
 
 
 def test_many_seeds_on_a_real_size_agree_with_their_fields():
@@ -63,10 +66,30 @@ def test_many_seeds_on_a_real_size_agree_with_their_fields():
     valid = random.random((90, 120)) < 0.8
     graph = kernel.Graph(luminance, range_image, valid)
     pixels = random.choice(np.flatnonzero(valid), 200)
-    distances, seeds = kernel.nearest(graph, pixels, 8)
+    found = kernel.nearest(graph, pixels, 8)
+    distances, seeds = found.distances, found.seeds
     fields = np.stack([kernel.field(graph, pixel) for pixel in pixels])
     np.testing.assert_array_equal(distances, np.moveaxis(np.sort(fields, axis=0)[:8], 0, -1))
     np.testing.assert_array_equal(of_listed(fields, seeds), distances)
+
+
+def test_the_lists_of_single_pixels_are_those_of_all():
+    luminance = np.arange(12, dtype=np.float32).reshape(3, 4)
+    found = kernel.nearest(kernel.Graph(luminance, luminance, luminance != 5), [2, 11, 0], 2)
+    distances, seeds = found.at([4, 11])
+    np.testing.assert_array_equal(distances, found.distances[[1, 2], [0, 3]])
+    np.testing.assert_array_equal(seeds, found.seeds[[1, 2], [0, 3]])
+
+
+def test_a_large_image_is_searched_in_bands_and_agrees_with_its_fields():
+    random = np.random.default_rng(4)
+    luminance, range_image = (random.random((2, 1100, 1000)) * 9).astype(np.float32)
+    valid = random.random((1100, 1000)) < 0.9
+    graph = kernel.Graph(luminance, range_image, valid, wrap=True)
+    pixels = random.choice(np.flatnonzero(valid), 60)
+    found = kernel.nearest(graph, pixels, 3)
+    fields = np.stack([kernel.field(graph, pixel) for pixel in pixels])
+    np.testing.assert_array_equal(found.distances, np.moveaxis(np.sort(fields, axis=0)[:3], 0, -1))
 
 
 @pytest.mark.parametrize("k", [0, -1, 1025])

@@ -123,6 +123,24 @@ def test_six_pairs_picked_by_hand_place_a_photo_from_the_side(room):
     assert (chroma_error(matching.seeds, room)[posed] < 40).mean() > 0.8
 
 
+def test_kept_seeds_stay_as_they_are_and_nothing_is_found_on_their_pixels(matching, room, turned):
+    found = matching.seeds
+    kept = Seeds(
+        found.rows[:3],
+        found.cols[:3],
+        [[1, 2, 3]] * 3,
+        confidence=[0.3, 0.5, np.nan],
+        reason=("pose", "appearance", None),
+    )
+    hand = Seeds(found.rows[2:4], found.cols[2:4], [[9, 9, 9]] * 2)
+    seeds = match_seeds(room, [turned], Settings(matching="paper", slic_segments=150), hand=hand, kept=kept)
+    assert seeds.reason[:4] == ("hand", "hand", "pose", "appearance")
+    np.testing.assert_array_equal(seeds.rgb[:4], [[9, 9, 9]] * 2 + [[1, 2, 3]] * 2)
+    np.testing.assert_array_equal(seeds.confidence[:4], [1, 1, 0.3, 0.5])
+    assert len(set(zip(seeds.rows.tolist(), seeds.cols.tolist(), strict=True))) == len(seeds)
+    assert len(seeds) > 100
+
+
 def test_scans_of_a_site_share_what_they_learn(room, turned):
     unseen = painted_room.scan(rows=40, columns=40, step_deg=0.5, name="corner")
     unseen = replace(unseen, points=unseen.points[:, ::-1] * [1, -1, 1], pose=np.diag([1.0, -1, 1, 1]))

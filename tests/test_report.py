@@ -3,14 +3,15 @@
 import hashlib
 import json
 import tomllib
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
 import pytest
 from small_scans import random_scan
 
-from reflcolor_addon import ReflcolorError, Seeds, Settings, colorize
-from reflcolor_addon.report import build_report
+from reflcolor_addon import Cancelled, ReflcolorError, Seeds, Settings, colorize
+from reflcolor_addon.report import build_report, input_entry, scan_entry, stamped
 from reflcolor_addon.version import __version__
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -36,12 +37,11 @@ def report_of(scan, seeds, tmp_path):
     def report(settings=None, **options):
         settings = settings or Settings()
         return build_report(
-            scan,
+            scan_entry(scan, 2),
             colorize(scan, seeds, settings),
             settings,
-            index=2,
             given_seeds=seeds,
-            inputs=[("scan", tmp_path / "garage.ptx")],
+            inputs=[input_entry("scan", tmp_path / "garage.ptx")],
             outputs=[("-o", tmp_path / "out.png")],
             **options,
         )
@@ -52,7 +52,7 @@ def report_of(scan, seeds, tmp_path):
 def test_it_says_what_was_colorized_and_how(report_of, scan):
     report = report_of(Settings(alpha=4.0, beta=0.0, color_space="cielab", neighbors=4))
     assert report["scan"] == {
-        "name": "garage", "index": 2, "rows": 6, "columns": 10, "returns": 59, "full_turn": False
+        "name": "garage", "index": 2, "rows": 6, "columns": 10, "returns": 59, "full_turn": False, "flipped": [],
     }  # fmt: skip
     chosen = {"alpha": 4.0, "beta": 0.0, "color_space": "cielab", "neighbors": 4, "nearest": None}
     assert report["settings"] == Settings().as_dict() | chosen
@@ -103,17 +103,23 @@ def test_it_is_json_and_the_same_each_time(report_of):
     assert json.loads(text) == report_of()
 
 
-def test_an_input_that_is_gone_is_named(report_of, tmp_path, scan, seeds):
+def test_an_input_that_is_gone_is_named(tmp_path):
     with pytest.raises(ReflcolorError, match=r"gone\.ptx: can no longer be read"):
-        build_report(
-            scan,
-            colorize(scan, seeds),
-            Settings(),
-            index=1,
-            given_seeds=seeds,
-            inputs=[("scan", tmp_path / "gone.ptx")],
-            outputs=[],
-        )
+        input_entry("scan", tmp_path / "gone.ptx")
+
+
+def test_hashing_a_large_file_can_be_cancelled(tmp_path):
+    (tmp_path / "large.ptx").write_bytes(b"points")
+    with pytest.raises(Cancelled):
+        input_entry("scan", tmp_path / "large.ptx", lambda: True)
+
+
+def test_the_time_is_in_utc_and_nothing_else_differs(report_of):
+    report = report_of()
+    later = stamped(report)
+    before = datetime.now(UTC) - timedelta(seconds=2)
+    assert before <= datetime.fromisoformat(later.pop("created")) <= datetime.now(UTC)
+    assert later == report
 
 
 def test_the_version_is_that_of_the_extension():

@@ -240,16 +240,13 @@ def test_the_nearest_pixel_with_a_return_is_found_around_a_full_turn_too(data, s
     rng = np.random.default_rng(data.draw(st.integers(0, 10**6)))
     valid = rng.random(shape) < share
     valid[data.draw(st.integers(0, shape[0] - 1)), data.draw(st.integers(0, shape[1] - 1))] = True
-    scan = scan_from_ranges(np.full(shape, 3.0), np.ones(shape), valid)
-    # Whether few returns are enough to see a full turn is another matter.
-    object.__setattr__(scan, "full_turn", full_turn)
     row, col = data.draw(st.integers(0, shape[0] - 1)), data.draw(st.integers(0, shape[1] - 1))
     rows, cols = np.nonzero(valid)
     across = np.abs(cols - col)
     if full_turn:
         across = np.minimum(across, shape[1] - across)
     squared = (rows - row) ** 2 + across**2
-    assert nearest_valid(scan, row, col) == (rows[squared.argmin()], cols[squared.argmin()])
+    assert nearest_valid(valid, row, col, wrap=full_turn) == (rows[squared.argmin()], cols[squared.argmin()])
 
 
 @pytest.mark.parametrize(

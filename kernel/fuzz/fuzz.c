@@ -87,6 +87,9 @@ static void check_nearest(const rc_graph *g, int64_t count, const int64_t *pixel
     for (int64_t i = 0; i < h * w; i++) {
         const int64_t p = (i / w + 1) * (w + 2) + i % w + 1;
         const float *list = labels + p * 2 * k;
+        if (isnan(g->y[p])) {
+            continue;
+        }
         int32_t seeds[64];
         memcpy(seeds, list + k, (size_t)k * sizeof *seeds);
         for (int32_t n = 0; n < k; n++) {
@@ -108,16 +111,22 @@ static void check_nearest(const rc_graph *g, int64_t count, const int64_t *pixel
         }
         note(list, (size_t)k * 2 * sizeof *list);
     }
-    float *sums = room((size_t)(h * w) * 4 * sizeof *sums), *colors = room((size_t)count * 2 * sizeof *colors);
+    float *sums = room((size_t)(h * w) * 5 * sizeof *sums), *colors = room((size_t)count * 2 * sizeof *colors);
     for (int64_t j = 0; j < 2 * count; j++) {
         colors[j] = (float)below(256);
     }
     float alpha = (float)below(16);
     alpha /= below(2) ? 1.0f : 3.0f;
-    expect(rc_blend_nearest(h, w, 0, h, k, labels, count, colors, alpha, sums, sums + h * w, sums + 2 * h * w,
-                            sums + 3 * h * w) == RC_OK, "rc_blend_nearest refuses a right call");
-    note(sums, (size_t)(h * w) * 4 * sizeof *sums);
+    int32_t *index = room((size_t)(h * w) * sizeof *index);
+    expect(rc_blend_nearest(g, 0, h, k, labels, count, colors, alpha, sums, index, sums + h * w, sums + 2 * h * w,
+                            sums + 3 * h * w, sums + 4 * h * w) == RC_OK, "rc_blend_nearest refuses a right call");
+    for (int64_t i = 0; i < h * w; i++) {
+        expect(sums[4 * h * w + i] >= 0.0f && sums[4 * h * w + i] < 257.0f, "a bound lies beyond the colors");
+    }
+    note(sums, (size_t)(h * w) * 5 * sizeof *sums);
+    note(index, (size_t)(h * w) * sizeof *index);
     free(sums);
+    free(index);
     free(colors);
     free(labels);
 }
@@ -136,7 +145,7 @@ static void check_blend(int64_t h, int64_t w, int64_t count, const float *fields
     for (int64_t j = 0; j < count; j++) {
         const float color0 = (float)below(256), color1 = (float)below(256);
         expect(rc_blend_add(h, w, fields + j * h * w, w, alpha, (int32_t)j, color0, color1, sums, index, sums + n,
-                            sums + 2 * n, sums + 3 * n) == RC_OK, "rc_blend_add refuses a right call");
+                            sums + 2 * n, sums + 3 * n, NULL) == RC_OK, "rc_blend_add refuses a right call");
     }
     expect(rc_blend_finish(h * w, sums + n, sums + 2 * n, sums + 3 * n) == RC_OK, "rc_blend_finish refuses");
     for (size_t i = 0; i < n; i++) {
@@ -179,7 +188,7 @@ static void one_round(void)
             lum[i / w * sy + i % w] = unusable[below(3)]; /* of no account where nothing returned */
         }
     }
-    expect(rc_graph_fill(h, w, g.wrap, lum, sy, ran, sd, valid, sv, y, d) == RC_OK, "rc_graph_fill refuses");
+    expect(rc_graph_fill(h, w, g.wrap, lum, sy, ran, sd, valid, sv, y, d, NULL) == RC_OK, "rc_graph_fill refuses");
     float *plain = room((size_t)(h * w) * sizeof *plain);
     for (int64_t j = 0; j < count; j++) {
         expect(rc_field(&g, 1, pixels + j, NULL, plane, NULL) == RC_OK, "rc_field refuses a right call");
@@ -200,8 +209,8 @@ static void one_round(void)
     g.beta = unusable[below(3)];
     expect(rc_field(&g, 1, pixels, NULL, plane, NULL) == RC_BAD_VALUE, "a wrong beta is taken");
     lum[pixels[0] / w * sy + pixels[0] % w] = unusable[below(3)];
-    expect(rc_graph_fill(h, w, g.wrap, lum, sy, ran, sd, valid, sv, y, d) == RC_BAD_VALUE, "NaN is taken");
-    expect(rc_graph_fill(h, w, g.wrap, lum, w - 1, ran, sd, valid, sv, y, d) == RC_BAD_SIZE, "a stride is taken");
+    expect(rc_graph_fill(h, w, g.wrap, lum, sy, ran, sd, valid, sv, y, d, NULL) == RC_BAD_VALUE, "NaN is taken");
+    expect(rc_graph_fill(h, w, g.wrap, lum, w - 1, ran, sd, valid, sv, y, d, NULL) == RC_BAD_SIZE, "a stride is taken");
     free(lum);
     free(ran);
     free(valid);

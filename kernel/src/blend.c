@@ -2,13 +2,20 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "labels.h"
+#include "check.h"
+#include "control.h"
 #include "power.h"
-#include "reflcolor_kernel.h"
+
+/* Of the tables of the seeds' chrominances. */
+#define RC_BINS 256
+/* Against rounding in their sums. */
+#define RC_RAISED 1.0001f
+/* Chords drawn to find how far a mean can move; more would change little. */
+#define RC_CHORDS 4
 
 int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t field_stride, float alpha,
                      int32_t seed, float seed_color0, float seed_color1, float *nearest, int32_t *index,
-                     float *weight, float *color0, float *color1)
+                     float *weight, float *color0, float *color1, const rc_control *control)
 {
     if (!field || !nearest || !index || !weight || !color0 || !color1) {
         return RC_BAD_POINTER;
@@ -21,6 +28,9 @@ int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t 
     }
     const rc_power power = rc_power_of(alpha);
     for (int64_t row = 0; row < height; row++) {
+        if (control && rc_cancelled(control)) {
+            return RC_CANCELLED;
+        }
         const float *const f = field + row * field_stride;
         const int64_t at = row * width;
         float *const n = nearest + at, *const w = weight + at, *const c0 = color0 + at, *const c1 = color1 + at;
@@ -67,43 +77,126 @@ int32_t rc_blend_finish(int64_t count, const float *weight, float *color0, float
     return RC_OK;
 }
 
-/* Distance of the mean from the farther end of the range that the seeds' colors span. */
-static float farthest(float mean, float least, float most)
+/* One chrominance of all seeds. At the edges of its bins a table holds the sum, over all seeds, of how far each lies
+ * above, and one of how far it lies below; between edges the chord does not understate it, for such a sum is convex. */
+typedef struct {
+    float low, high, bins_per_unit;
+    float above[RC_BINS + 1], below[RC_BINS + 1];
+} rc_spread;
+
+static int32_t spread_of(int64_t count, const float *colors, rc_spread *s)
 {
-    return most - mean > mean - least ? most - mean : mean - least;
+    s->low = INFINITY;
+    s->high = -INFINITY;
+    for (int64_t j = 0; j < count; j++) {
+        if (!isfinite(colors[2 * j])) {
+            return RC_BAD_VALUE;
+        }
+        s->low = colors[2 * j] < s->low ? colors[2 * j] : s->low;
+        s->high = colors[2 * j] > s->high ? colors[2 * j] : s->high;
+    }
+    double number[RC_BINS] = {0}, sum[RC_BINS] = {0};
+    const double width = ((double)s->high - (double)s->low) / RC_BINS;
+    s->bins_per_unit = width > 0.0 ? (float)(1.0 / width) : 0.0f;
+    for (int64_t j = 0; j < count; j++) {
+        const double from_low = (double)colors[2 * j] - (double)s->low;
+        const int32_t bin = width > 0.0 ? (int32_t)(from_low / width) : 0;
+        number[bin < RC_BINS ? bin : RC_BINS - 1]++;
+        sum[bin < RC_BINS ? bin : RC_BINS - 1] += from_low;
+    }
+    double n = 0.0, total = 0.0;
+    s->above[RC_BINS] = 0.0f;
+    for (int32_t b = RC_BINS - 1; b >= 0; b--) {
+        n += number[b];
+        total += sum[b];
+        s->above[b] = (float)(total - n * width * b) * RC_RAISED;
+    }
+    n = total = 0.0;
+    s->below[0] = 0.0f;
+    for (int32_t b = 1; b <= RC_BINS; b++) {
+        n += number[b - 1];
+        total += sum[b - 1];
+        s->below[b] = (float)(n * width * b - total) * RC_RAISED;
+    }
+    return RC_OK;
 }
 
-int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t row1, int32_t k, void *labels,
-                         int64_t count, const float *colors, float alpha, float *weight, float *color0,
-                         float *color1, float *bound)
+static float chord(const float *table, float x)
 {
-    if (!labels || !colors || !weight || !color0 || !color1) {
+    x = x < 0.0f ? 0.0f : x > RC_BINS ? RC_BINS : x;
+    const int32_t bin = x < RC_BINS ? (int32_t)x : RC_BINS - 1;
+    return table[bin] + (x - (float)bin) * (table[bin + 1] - table[bin]);
+}
+
+/* The most by which a mean of weight w can move to one side when every seed left out gets a weight from 0 to `each`.
+ * All seeds beyond a place t units off push together with each * q(t), where q(t) is how far they lie beyond it; the
+ * mean stops where w * t outweighs that. q is convex, is `beyond` at 0, and 0 at `span`: where the chord between two
+ * known places meets w * t / each is no nearer than where q does, and becomes the next known place. */
+static float shift(const float *table, float x, float per_unit, float beyond, float span, float each, float w)
+{
+    if (!(beyond > 0.0f) || !(span > 0.0f)) {
+        return 0.0f;
+    }
+    float t = span, q = 0.0f;
+    for (int n = 0; n < RC_CHORDS; n++) {
+        t = each * beyond / (w + each * (beyond - q) / t);
+        const float listed = chord(table, x + per_unit * t), least = w * t / each;
+        q = listed < least ? listed : least;
+    }
+    return t;
+}
+
+/* The most that the seeds left out can move one chrominance of a pixel whose k nearest seeds are `id`. */
+static float bound_of(const rc_spread *s, float mean, int32_t k, const int32_t *id, const float *colors, float each,
+                      float w)
+{
+    const float x = (mean - s->low) * s->bins_per_unit;
+    float above = chord(s->above, x), below = chord(s->below, x);
+    for (int32_t i = 0; i < k; i++) {
+        const float off = colors[2 * id[i]] - mean;
+        above -= off > 0.0f ? off : 0.0f;
+        below += off < 0.0f ? off : 0.0f;
+    }
+    const float up = shift(s->above, x, s->bins_per_unit, above, s->high - mean, each, w);
+    const float down = shift(s->below, x, -s->bins_per_unit, below, mean - s->low, each, w);
+    return up > down ? up : down;
+}
+
+int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
+                         int64_t count, const float *colors, float alpha, float *nearest, int32_t *index,
+                         float *weight, float *color0, float *color1, float *bound)
+{
+    int32_t code = rc_check_graph(graph);
+    if (code != RC_OK) {
+        return code;
+    }
+    if (!labels || !colors || !nearest || !index || !weight || !color0 || !color1) {
         return RC_BAD_POINTER;
     }
-    if (rc_plane_size(height, width) < 0 || row0 < 0 || row1 < row0 || row1 > height || count < 1 ||
-        count > INT32_MAX) {
+    if (row0 < 0 || row1 < row0 || row1 > graph->height || count < 1 || count > INT32_MAX) {
         return RC_BAD_SIZE;
     }
     if (!(alpha >= 0.0f) || !isfinite(alpha) || k < 1 || k > RC_MAX_NEAREST) {
         return RC_BAD_VALUE;
     }
-    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (int64_t j = 0; j < 2 * count; j++) {
-        if (!isfinite(colors[j])) {
-            return RC_BAD_VALUE;
+    rc_spread spread[2];
+    for (int channel = 0; channel < 2; channel++) {
+        code = spread_of(count, colors + channel, spread + channel);
+        if (code != RC_OK) {
+            return code;
         }
-        low[j & 1] = colors[j] < low[j & 1] ? colors[j] : low[j & 1];
-        high[j & 1] = colors[j] > high[j & 1] ? colors[j] : high[j & 1];
     }
     const rc_power power = rc_power_of(alpha);
+    const int64_t width = graph->width;
     for (int64_t row = row0; row < row1; row++) {
         for (int64_t c = 0; c < width; c++) {
             const int64_t p = (row + 1) * (width + 2) + c + 1, out = row * width + c;
-            const float *const r = rc_distances(labels, k, p);
-            const int32_t *const id = rc_seeds(labels, k, p);
+            const float *const r = (const float *)labels + p * 2 * k;
+            const int32_t *const id = (const int32_t *)labels + p * 2 * k + k;
             float relative[RC_MAX_NEAREST], w = 0.0f, c0 = 0.0f, c1 = 0.0f;
             int32_t n = 0;
-            for (; n < k && id[n] >= 0; n++) {
+            const int32_t places = isnan(graph->y[p]) ? 0 : k;
+            for (; n < places && id[n] >= 0; n++) {
                 if (id[n] >= count) {
                     return RC_BAD_SEED;
                 }
@@ -115,16 +208,19 @@ int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t ro
                 c0 += relative[i] * colors[2 * id[i]];
                 c1 += relative[i] * colors[2 * id[i] + 1];
             }
+            nearest[out] = n ? r[0] : INFINITY;
+            index[out] = n ? id[0] : -1;
             weight[out] = w;
             color0[out] = n ? c0 / w : 0.0f;
             color1[out] = n ? c1 / w : 0.0f;
             if (bound) {
-                /* Each seed left out lies at least as far as the last one kept, and pulls at most towards the
-                 * far end of the seeds' colors. */
-                const float left = n == k ? (float)(count - k) * relative[k - 1] : 0.0f;
-                const float pull0 = farthest(color0[out], low[0], high[0]);
-                const float pull1 = farthest(color1[out], low[1], high[1]);
-                bound[out] = left > 0.0f ? left / (w + left) * (pull0 > pull1 ? pull0 : pull1) : 0.0f;
+                bound[out] = 0.0f;
+                if (n == k && count > k && relative[k - 1] > 0.0f) {
+                    /* Each seed left out lies at least as far as the last one kept. */
+                    const float bound0 = bound_of(spread, color0[out], k, id, colors, relative[k - 1], w);
+                    const float bound1 = bound_of(spread + 1, color1[out], k, id, colors + 1, relative[k - 1], w);
+                    bound[out] = bound0 > bound1 ? bound0 : bound1;
+                }
             }
         }
     }

@@ -10,6 +10,12 @@
 #define RC_BOUND_SLACK 1.001f
 /* Of every so many rows and columns, one pixel's list is looked through for links. */
 #define RC_LINK_STRIDE 2
+/* The cells grow in one band of rows after another, so that what is at work fits the cache; a band has so many pixels,
+ * and so many times the rows that lie between neighboring seeds, lest much be done again where bands meet. */
+#ifndef RC_BAND_PIXELS
+#define RC_BAND_PIXELS (1 << 19)
+#define RC_BAND_CELLS 6
+#endif
 
 static float raised(float bound) { return bound * RC_BOUND_SLACK + 1e-30f; }
 
@@ -54,33 +60,87 @@ static int32_t find_links(const rc_steps *s, const rc_graph *g, const float *dis
     return RC_OK;
 }
 
-int32_t rc_bounds_from_cells(rc_net *net, const rc_steps *steps, const rc_graph *graph, rc_queue *queue, int64_t count,
-                             const int64_t *pixels, int32_t k, float *bound, uint8_t *flags, int32_t *owner,
-                             const rc_control *control)
+/* Propagate within every band in turn what waits in it, downwards and upwards, until nothing waits anywhere. */
+static int32_t march_bands(const rc_steps *s, rc_queue *queue, int32_t bands, int32_t band_size, rc_trail *waiting,
+                           float *current, uint8_t *flags, int32_t *owner, const rc_control *control)
 {
     const rc_control quiet = {control->cancel, NULL};
-    const int64_t size = rc_plane_size(graph->height, graph->width);
-    net->count = count;
-    net->node = malloc((size_t)count * sizeof *net->node);
-    net->weight = calloc((size_t)count, sizeof *net->weight);
-    net->reach = malloc((size_t)count * sizeof *net->reach);
-    if (!net->node || !net->weight || !net->reach) {
-        return RC_MEMORY;
+    rc_trail beyond = {NULL, 0, 0}; /* there are no pixels above the first band and below the last */
+    int32_t code = RC_OK;
+    for (int down = 1, more = 1; more; down = !down) {
+        more = 0;
+        for (int32_t n = 0; n < bands && code == RC_OK; n++) {
+            const int32_t b = down ? n : bands - 1 - n;
+            rc_trail *const here = waiting + b;
+            const rc_band band = {b * band_size, band_size, b ? here - 1 : &beyond, b < bands - 1 ? here + 1 : &beyond};
+            more |= here->used > 0;
+            for (int64_t i = 0; i < here->used; i++) {
+                rc_push(queue, current[here->pixel[i]], here->pixel[i], 1);
+            }
+            here->used = 0;
+            code = s->wrap ? rc_march(s, queue, current, flags, NULL, owner, &band, 1, &quiet)
+                           : rc_march(s, queue, current, flags, NULL, owner, &band, 0, &quiet);
+        }
     }
-    if (!rc_fill(bound, size, INFINITY, control)) {
-        return RC_CANCELLED;
-    }
-    for (int64_t j = 0; j < count; j++) {
+    return code;
+}
+
+/* Distance and index of the nearest seed of every pixel, and the nodes of the net. */
+static int32_t find_cells(rc_net *net, const rc_steps *steps, const rc_graph *graph, rc_queue *queue, int64_t count,
+                          const int64_t *pixels, float *distance, uint8_t *flags, int32_t *owner,
+                          const rc_control *control)
+{
+    const double apart = sqrt((double)graph->height * (double)graph->width / (double)count);
+    int64_t rows = RC_BAND_PIXELS / steps->stride;
+    rows = rows < RC_BAND_CELLS * apart ? (int64_t)(RC_BAND_CELLS * apart) : rows;
+    rows = rows < 1 ? 1 : rows;
+    rows = rows < graph->height + 2 ? rows : graph->height + 2;
+    const int32_t bands = (int32_t)((graph->height + 2 + rows - 1) / rows);
+    const int32_t band_size = (int32_t)rows * steps->stride;
+    rc_trail *waiting = calloc((size_t)bands, sizeof *waiting);
+    int32_t code = waiting ? RC_OK : RC_MEMORY;
+    for (int64_t j = 0; j < count && code == RC_OK; j++) {
         const int32_t p = rc_plane_position(graph, pixels[j]);
-        if (bound[p] > 0.0f) {
+        if (distance[p] > 0.0f) {
+            rc_trail *const t = waiting + p / band_size;
             owner[p] = (int32_t)j;
-            rc_start(steps, queue, bound, flags, p, 0.0f);
+            rc_set(steps, distance, p, 0.0f);
+            flags[p] |= RC_WAITING;
+            if (t->used == t->room && !rc_trail_grow(t)) {
+                code = RC_MEMORY;
+                break;
+            }
+            t->pixel[t->used++] = p;
         }
         net->node[j] = owner[p];
         net->weight[owner[p]]++;
     }
-    int32_t code = steps->wrap ? rc_march(steps, queue, bound, flags, NULL, owner, 1, &quiet)
-                               : rc_march(steps, queue, bound, flags, NULL, owner, 0, &quiet);
+    if (code == RC_OK) {
+        code = march_bands(steps, queue, bands, band_size, waiting, distance, flags, owner, control);
+    }
+    for (int32_t b = 0; waiting && b < bands; b++) {
+        free(waiting[b].pixel);
+    }
+    free(waiting);
+    return code;
+}
+
+int32_t rc_bounds_from_cells(rc_net *net, const rc_steps *steps, const rc_graph *graph, rc_queue *queue, int64_t count,
+                             const int64_t *pixels, int32_t k, float *bound, uint8_t *flags, const rc_control *control)
+{
+    const int64_t size = rc_plane_size(graph->height, graph->width);
+    int32_t *const owner = malloc((size_t)size * sizeof *owner);
+    net->count = count;
+    net->node = malloc((size_t)count * sizeof *net->node);
+    net->weight = calloc((size_t)count, sizeof *net->weight);
+    net->reach = malloc((size_t)count * sizeof *net->reach);
+    int32_t code = owner && net->node && net->weight && net->reach ? RC_OK : RC_MEMORY;
+    if (code == RC_OK && !rc_fill(bound, size, INFINITY, control)) {
+        code = RC_CANCELLED;
+    }
+    if (code == RC_OK) {
+        code = find_cells(net, steps, graph, queue, count, pixels, bound, flags, owner, control);
+    }
     if (code == RC_OK) {
         code = find_links(steps, graph, bound, owner, &net->links, control);
     }
@@ -88,12 +148,14 @@ int32_t rc_bounds_from_cells(rc_net *net, const rc_steps *steps, const rc_graph 
         code = rc_links_search(count, k, &net->links, net->weight, net->reach, control);
     }
     for (int32_t r = 1; code == RC_OK && r <= graph->height; r++) {
+        code = rc_cancelled(control) ? RC_CANCELLED : RC_OK;
         for (int32_t p = r * steps->stride + 1; p <= r * steps->stride + steps->width; p++) {
             if (bound[p] < INFINITY) {
                 rc_set(steps, bound, p, raised(bound[p] + net->reach[owner[p]]));
             }
         }
     }
+    free(owner);
     return code;
 }
 
@@ -107,7 +169,8 @@ int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph 
         for (int32_t c = 1; c <= graph->width; c += RC_LINK_STRIDE) {
             const float *const d = rc_distances(labels, few, r * steps->stride + c);
             const int32_t *const id = rc_seeds(labels, few, r * steps->stride + c);
-            for (int32_t i = 1; i < few && id[i] >= 0; i++) {
+            const int32_t listed = isnan(steps->y[r * steps->stride + c]) ? 0 : few;
+            for (int32_t i = 1; i < listed && id[i] >= 0; i++) {
                 for (int32_t j = 0; j < i; j++) {
                     const int32_t a = net->node[id[i]], b = net->node[id[j]];
                     if (a != b && !rc_links_add(&net->links, a, b, d[i] + d[j])) {
@@ -117,9 +180,13 @@ int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph 
             }
         }
     }
-    const int32_t code = rc_links_search(net->count, k, &net->links, net->weight, net->reach, control);
+    int32_t code = rc_links_search(net->count, k, &net->links, net->weight, net->reach, control);
     for (int32_t r = 1; code == RC_OK && r <= graph->height; r++) {
+        code = rc_cancelled(control) ? RC_CANCELLED : RC_OK;
         for (int32_t p = r * steps->stride + 1; p <= r * steps->stride + steps->width; p++) {
+            if (isnan(steps->y[p])) {
+                continue;
+            }
             const float *const d = rc_distances(labels, few, p);
             const int32_t *const id = rc_seeds(labels, few, p);
             float least = INFINITY;

@@ -19,10 +19,9 @@ typedef struct {
 } rc_net;
 
 /* Fill `bound` (a plane) with numbers larger than the distance of the k-th nearest seed, infinite where fewer than k
- * arrive, from the seeds' Voronoi cells. `owner` is scratch of a plane's size, `flags` as for rc_march. `net` is to be
- * freed whatever comes back. */
+ * arrive, from the seeds' Voronoi cells. `flags` is as for rc_march. `net` is to be freed whatever comes back. */
 int32_t rc_bounds_from_cells(rc_net *net, const rc_steps *steps, const rc_graph *graph, rc_queue *queue, int64_t count,
-                             const int64_t *pixels, int32_t k, float *bound, uint8_t *flags, int32_t *owner,
+                             const int64_t *pixels, int32_t k, float *bound, uint8_t *flags,
                              const rc_control *control);
 
 /* The same, tighter, from lists of the few nearest seeds of every pixel. */

@@ -43,8 +43,8 @@ int32_t rc_field(const rc_graph *graph, int64_t count, const int64_t *pixels, co
         }
     }
     if (code == RC_OK) {
-        code = graph->wrap ? rc_march(&steps, queue, plane, flags, NULL, NULL, 1, control)
-                           : rc_march(&steps, queue, plane, flags, NULL, NULL, 0, control);
+        code = graph->wrap ? rc_march(&steps, queue, plane, flags, NULL, NULL, NULL, 1, control)
+                           : rc_march(&steps, queue, plane, flags, NULL, NULL, NULL, 0, control);
     }
     rc_queue_free(queue);
     free(flags);

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "check.h"
+#include "control.h"
 
 int32_t rc_abi_version(void) { return RC_ABI_VERSION; }
 
@@ -49,7 +50,7 @@ int32_t rc_check_pixels(const rc_graph *g, int64_t count, const int64_t *pixels)
 
 int32_t rc_graph_fill(int64_t height, int64_t width, int32_t wrap, const float *luminance, int64_t luminance_stride,
                       const float *range, int64_t range_stride, const uint8_t *valid, int64_t valid_stride, float *y,
-                      float *d)
+                      float *d, const rc_control *control)
 {
     const int64_t size = rc_plane_size(height, width);
     if (!luminance || !range || !valid || !y || !d) {
@@ -63,6 +64,9 @@ int32_t rc_graph_fill(int64_t height, int64_t width, int32_t wrap, const float *
         d[i] = 0.0f;
     }
     for (int64_t r = 0; r < height; r++) {
+        if (control && rc_cancelled(control)) {
+            return RC_CANCELLED;
+        }
         float *const yr = y + (r + 1) * (width + 2) + 1, *const dr = d + (r + 1) * (width + 2) + 1;
         for (int64_t c = 0; c < width; c++) {
             yr[c] = NAN;

@@ -84,6 +84,24 @@ static inline int rc_trail_grow(rc_trail *t)
     return 1;
 }
 
+/* Rows that a propagation keeps to, as plane positions from `first` on; what it reaches above and below them waits in
+ * the two lists, to be pushed when the turn of their rows comes. */
+typedef struct {
+    int32_t first, size;
+    rc_trail *above, *below;
+} rc_band;
+
+/* Let a pixel wait beyond the band; returns 0 if memory is out. */
+static inline int rc_band_wait(const rc_band *band, int32_t q)
+{
+    rc_trail *const t = q < band->first ? band->above : band->below;
+    if (t->used == t->room && !rc_trail_grow(t)) {
+        return 0;
+    }
+    t->pixel[t->used++] = q;
+    return 1;
+}
+
 /* A pixel the propagation starts from. */
 static inline void rc_start(const rc_steps *s, rc_queue *queue, float *current, uint8_t *flags, int32_t p, float at)
 {
@@ -94,13 +112,13 @@ static inline void rc_start(const rc_steps *s, rc_queue *queue, float *current, 
 
 /* Settle everything in the queue. `current` holds, per plane position, the distance below which a path is of
  * interest, and afterwards the distance itself where one was found. `flags` is a plane of bytes, 0 at the start, and
- * again at the end but for RC_SETTLED on the trail's pixels. `trail` and `owner` may be null: what was settled, and a
- * value handed on from each pixel to those reached through it.
+ * again at the end but for RC_SETTLED on the trail's pixels and RC_WAITING beyond the band. `trail`, `owner` and `band`
+ * may be null: what was settled, a value handed on from each pixel to those reached through it, and the rows to keep to.
  *
  * Pixels are settled in batches: first all costs, which takes no branch, then the writes. A wrongly predicted branch
  * among the writes is then found out at once, and not after the dozen dependent operations of a cost. */
 static inline int32_t rc_march(const rc_steps *s, rc_queue *queue, float *current, uint8_t *flags, rc_trail *trail,
-                               int32_t *owner, const int wrap, const rc_control *control)
+                               int32_t *owner, const rc_band *band, const int wrap, const rc_control *control)
 {
     const lanes beta = lanes_all(s->beta);
     int64_t until_poll = RC_POLL;
@@ -148,6 +166,13 @@ static inline int32_t rc_march(const rc_steps *s, rc_queue *queue, float *curren
                     }
                     if (owner) {
                         owner[q] = owner[batch[n]];
+                    }
+                    if (band && (uint32_t)(q - band->first) >= (uint32_t)band->size) {
+                        if (!(flags[q] & RC_WAITING) && !rc_band_wait(band, q)) {
+                            return RC_MEMORY;
+                        }
+                        flags[q] |= RC_WAITING;
+                        continue;
                     }
                     /* A pixel that waits in the right bucket already is not put there twice. */
                     const uint32_t moved = (rc_bits(before) ^ rc_bits(to)) >> RC_SHIFT(queue->depth);

@@ -71,28 +71,33 @@ static int32_t insert_trail(const rc_steps *steps, const rc_trail *trail, uint8_
     return RC_OK;
 }
 
-/* Start all lists: k places that hold the pixel's bound and no seed. */
-static int32_t clear_lists(int64_t size, int32_t k, const float *current, void *labels, const rc_control *control)
+/* Start all lists: k places that hold the pixel's bound and no seed. Where there is no node, memory that was never
+ * touched stays so. */
+static int32_t clear_lists(const rc_steps *steps, int64_t size, int32_t k, const float *current, void *labels,
+                           const rc_control *control)
 {
     for (int64_t p = 0; p < size; p++) {
+        if (p % RC_POLL == 0 && rc_cancelled(control)) {
+            return RC_CANCELLED;
+        }
+        if (isnan(steps->y[p])) {
+            continue;
+        }
         float *const list = rc_distances(labels, k, p);
         int32_t *const ids = rc_seeds(labels, k, p);
         for (int32_t i = 0; i < k; i++) {
             list[i] = current[p];
             ids[i] = -1;
         }
-        if (p % RC_POLL == 0 && rc_cancelled(control)) {
-            return RC_CANCELLED;
-        }
     }
     return RC_OK;
 }
 
 /* Whether every list that a finite bound promised to fill is full. */
-static int lists_full(int64_t size, int32_t k, void *labels, const rc_control *control)
+static int lists_full(const rc_steps *steps, int64_t size, int32_t k, void *labels, const rc_control *control)
 {
     for (int64_t p = 0; p < size; p++) {
-        if (rc_seeds(labels, k, p)[k - 1] < 0 && rc_distances(labels, k, p)[k - 1] < INFINITY) {
+        if (!isnan(steps->y[p]) && rc_seeds(labels, k, p)[k - 1] < 0 && rc_distances(labels, k, p)[k - 1] < INFINITY) {
             return 0;
         }
         if (p % RC_POLL == 0 && rc_cancelled(control)) {
@@ -118,8 +123,8 @@ static int32_t march_seeds(const rc_steps *steps, const rc_graph *graph, rc_queu
         }
         trail->used = 0;
         rc_start(steps, queue, current, flags, p, 0.0f);
-        int32_t code = steps->wrap ? rc_march(steps, queue, current, flags, trail, NULL, 1, &quiet)
-                                   : rc_march(steps, queue, current, flags, trail, NULL, 0, &quiet);
+        int32_t code = steps->wrap ? rc_march(steps, queue, current, flags, trail, NULL, NULL, 1, &quiet)
+                                   : rc_march(steps, queue, current, flags, trail, NULL, NULL, 0, &quiet);
         if (code == RC_OK) {
             code = insert_trail(steps, trail, flags, k, (int32_t)j, labels, current, control);
         }
@@ -159,12 +164,11 @@ int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, 
     code = queue && current && flags ? RC_OK : RC_MEMORY;
     const int32_t few = k >= RC_MANY ? RC_FEW : k;
     if (code == RC_OK) {
-        /* The lists' own memory serves as scratch before they are begun. */
-        code = rc_bounds_from_cells(&net, &steps, graph, queue, count, pixels, few, current, flags, labels, control);
+        code = rc_bounds_from_cells(&net, &steps, graph, queue, count, pixels, few, current, flags, control);
     }
     if (code == RC_OK && few < k) {
         const rc_control quiet = {control->cancel, NULL};
-        code = clear_lists(size, few, current, labels, control);
+        code = clear_lists(&steps, size, few, current, labels, control);
         if (code == RC_OK) {
             code = march_seeds(&steps, graph, queue, &trail, count, pixels, few, current, flags, labels, &quiet);
         }
@@ -177,12 +181,12 @@ int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, 
             code = RC_CANCELLED;
             break;
         }
-        code = clear_lists(size, k, current, labels, control);
+        code = clear_lists(&steps, size, k, current, labels, control);
         if (code == RC_OK) {
             code = march_seeds(&steps, graph, queue, &trail, count, pixels, k, current, flags, labels, control);
         }
         /* Rounding could in principle make a bound too low; then a list stays short, and all is done without. */
-        if (!bounded || lists_full(size, k, labels, control)) {
+        if (!bounded || lists_full(&steps, size, k, labels, control)) {
             break;
         }
         code = code == RC_OK && rc_cancelled(control) ? RC_CANCELLED : code;

@@ -13,8 +13,10 @@
 #include <string.h>
 
 /* Pixels taken from a bucket at once. */
-#define RC_BATCH 16
-#define RC_CHUNK 116
+#define RC_BATCH 32
+/* Bytes of a chunk, at a multiple of which it begins: whether one is full is seen from where the next pixel goes. */
+#define RC_CHUNK_BYTES 512
+#define RC_CHUNK ((RC_CHUNK_BYTES - sizeof(void *)) / sizeof(int32_t))
 #define RC_CHUNKS_PER_BLOCK 128
 /* Bits of a distance below those that choose its bucket, per level; a level starts at a multiple of 64 buckets. */
 #define RC_LEVELS 4
@@ -33,22 +35,18 @@
 
 typedef struct rc_chunk {
     struct rc_chunk *next;
-    int64_t used;
-    int32_t pixel[RC_CHUNK + RC_BATCH]; /* the last ones are copied and never used */
+    int32_t pixel[RC_CHUNK];
 } rc_chunk;
 
 typedef struct rc_block {
     struct rc_block *next;
-    rc_chunk chunk[RC_CHUNKS_PER_BLOCK];
+    /* What is copied behind the last chunk is never used. */
+    char room[(RC_CHUNKS_PER_BLOCK + 1) * RC_CHUNK_BYTES + RC_BATCH * sizeof(int32_t)];
 } rc_block;
 
 typedef struct {
-    rc_chunk *head;
-    int64_t chunks;
-} rc_bucket;
-
-typedef struct {
-    rc_bucket bucket[RC_BUCKETS];
+    int32_t *end[RC_BUCKETS];   /* where the next pixel goes, in the last chunk; null without one */
+    int32_t chunks[RC_BUCKETS];
     uint64_t occupied[RC_BUCKETS / 64];
     int depth;                  /* levels below the first that hold buckets dealt out */
     uint32_t dealt[RC_LEVELS];  /* per level, the upper bits of the distances that were dealt out */
@@ -79,25 +77,38 @@ static inline void rc_queue_free(rc_queue *q)
     }
 }
 
-static inline rc_chunk *rc_chunk_new(rc_queue *q)
+static inline int rc_is_full(const int32_t *end) { return !((uintptr_t)end % RC_CHUNK_BYTES); }
+
+/* The chunk that `end` is in, or is the end of. */
+static inline rc_chunk *rc_chunk_of(int32_t *end)
+{
+    return (rc_chunk *)((char *)end - 1 - ((uintptr_t)end - 1) % RC_CHUNK_BYTES);
+}
+
+/* Add an empty chunk to a bucket whose last one is full, or that has none; returns 0 if memory is out. */
+static inline int rc_chunk_add(rc_queue *q, int32_t i)
 {
     if (!q->free_chunks) {
         rc_block *b = malloc(sizeof *b);
         if (!b) {
             q->failed = 1;
-            return NULL;
+            return 0;
         }
         b->next = q->blocks;
         q->blocks = b;
-        for (int i = 0; i < RC_CHUNKS_PER_BLOCK; i++) {
-            b->chunk[i].next = q->free_chunks;
-            q->free_chunks = &b->chunk[i];
+        char *at = b->room + (RC_CHUNK_BYTES - (uintptr_t)b->room % RC_CHUNK_BYTES) % RC_CHUNK_BYTES;
+        for (int n = 0; n < RC_CHUNKS_PER_BLOCK; n++, at += RC_CHUNK_BYTES) {
+            ((rc_chunk *)at)->next = q->free_chunks;
+            q->free_chunks = (rc_chunk *)at;
         }
     }
     rc_chunk *c = q->free_chunks;
     q->free_chunks = c->next;
-    c->used = 0;
-    return c;
+    c->next = q->end[i] ? rc_chunk_of(q->end[i]) : NULL;
+    q->end[i] = c->pixel;
+    q->chunks[i]++;
+    q->occupied[i >> 6] |= (uint64_t)1 << (i & 63);
+    return 1;
 }
 
 static inline void rc_chunk_release(rc_queue *q, rc_chunk *c)
@@ -118,37 +129,28 @@ static inline void rc_push(rc_queue *q, float distance, int32_t pixel, int wante
     }
     const int32_t i = level ? RC_BASE(level) + (int32_t)(key >> RC_SHIFT(level) & 31)
                             : (int32_t)(key >> RC_SHIFT(0));
-    rc_bucket *b = &q->bucket[i];
-    rc_chunk *c = b->head;
-    if (!c || c->used == RC_CHUNK) {
-        c = rc_chunk_new(q);
-        if (!c) {
-            return;
-        }
-        c->next = b->head;
-        b->head = c;
-        b->chunks++;
-        q->occupied[i >> 6] |= (uint64_t)1 << (i & 63);
+    if (rc_is_full(q->end[i]) && !rc_chunk_add(q, i)) {
+        return;
     }
-    c->pixel[c->used] = pixel;
-    c->used += wanted;
+    *q->end[i] = pixel;
+    q->end[i] += wanted;
 }
 
 /* Take up to RC_BATCH pixels out of a bucket; returns how many. */
 static inline int rc_pop(rc_queue *q, int32_t i, int32_t *out)
 {
-    rc_bucket *b = &q->bucket[i];
-    rc_chunk *c = b->head;
-    if (!c) {
+    if (!q->end[i]) {
         rc_mark_empty(q, i);
         return 0;
     }
-    const int taken = c->used < RC_BATCH ? (int)c->used : RC_BATCH;
-    c->used -= taken;
-    memcpy(out, c->pixel + c->used, RC_BATCH * sizeof *out);
-    if (!c->used) {
-        b->head = c->next;
-        b->chunks--;
+    rc_chunk *c = rc_chunk_of(q->end[i]);
+    const int64_t used = q->end[i] - c->pixel;
+    const int taken = used < RC_BATCH ? (int)used : RC_BATCH;
+    q->end[i] -= taken;
+    memcpy(out, q->end[i], RC_BATCH * sizeof *out);
+    if (taken == used) {
+        q->end[i] = c->next ? (int32_t *)((char *)c->next + RC_CHUNK_BYTES) : NULL;
+        q->chunks[i]--;
         rc_chunk_release(q, c);
     }
     return taken;
@@ -159,23 +161,22 @@ static inline int rc_level(int32_t bucket) { return bucket < RC_COARSE ? 0 : 1 +
 /* Deal a bucket out to the level below, without the pixels that were settled meanwhile. */
 static inline void rc_deal(rc_queue *q, int32_t i, const float *current, const uint8_t *flags)
 {
-    rc_bucket *b = &q->bucket[i];
     const int level = rc_level(i);
-    rc_chunk *c = b->head;
-    b->head = NULL;
-    b->chunks = 0;
+    int32_t *end = q->end[i];
+    q->end[i] = NULL;
+    q->chunks[i] = 0;
     rc_mark_empty(q, i);
     q->dealt[level] = level ? q->dealt[level - 1] << 5 | (uint32_t)(i - RC_BASE(level)) : (uint32_t)i;
     q->depth = level + 1;
-    while (c) {
-        for (int64_t n = 0; n < c->used; n++) {
-            if (flags[c->pixel[n]] & RC_WAITING) {
-                rc_push(q, current[c->pixel[n]], c->pixel[n], 1);
+    while (end) {
+        rc_chunk *const c = rc_chunk_of(end);
+        for (const int32_t *p = c->pixel; p < end; p++) {
+            if (flags[*p] & RC_WAITING) {
+                rc_push(q, current[*p], *p, 1);
             }
         }
-        rc_chunk *next = c->next;
+        end = c->next ? (int32_t *)((char *)c->next + RC_CHUNK_BYTES) : NULL;
         rc_chunk_release(q, c);
-        c = next;
     }
 }
 
@@ -209,7 +210,7 @@ static inline int32_t rc_next(rc_queue *q, const float *current, const uint8_t *
                 return -1;
             }
         }
-        if (q->bucket[i].chunks <= RC_DEAL_CHUNKS || rc_level(i) == RC_LEVELS - 1) {
+        if (q->chunks[i] <= RC_DEAL_CHUNKS || rc_level(i) == RC_LEVELS - 1) {
             return i;
         }
         rc_deal(q, i, current, flags);

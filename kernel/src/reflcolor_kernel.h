@@ -19,7 +19,7 @@
 #define RC_API __attribute__((visibility("default")))
 #endif
 
-#define RC_ABI_VERSION 1
+#define RC_ABI_VERSION 2
 #define RC_SLACK 8
 #define RC_MAX_NEAREST 1024
 
@@ -60,7 +60,8 @@ RC_API int64_t rc_plane_size(int64_t height, int64_t width);
 /* Fill the planes y and d from images with row strides in elements. Finite values are required where valid != 0. */
 RC_API int32_t rc_graph_fill(int64_t height, int64_t width, int32_t wrap, const float *luminance,
                              int64_t luminance_stride, const float *range, int64_t range_stride,
-                             const uint8_t *valid, int64_t valid_stride, float *y, float *d);
+                             const uint8_t *valid, int64_t valid_stride, float *y, float *d,
+                             const rc_control *control);
 
 /* Distance of every pixel to the nearest of `count` source pixels (row * width + column), each starting at
  * start[i] (null: all at 0). `plane` receives the distances, infinite where nothing arrives; its rim is undefined. */
@@ -69,25 +70,27 @@ RC_API int32_t rc_field(const rc_graph *graph, int64_t count, const int64_t *pix
 
 /* The k nearest of `count` seeds of every pixel, distances ascending, the lower seed first among equals. `labels`
  * holds 2 k words of 32 bits per plane entry (rc_plane_size(...) * 2 * k): k float distances, then k int32 seeds; unused
- * places hold infinity and -1. */
+ * places hold infinity and -1. Pixels that are no nodes are left as they were. */
 RC_API int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, void *labels,
                           const rc_control *control);
 
 /* Equation 1, one seed at a time, for a seed that lies `field` away (rows of field_stride floats). The sums are kept
  * relative to the nearest seed so far: weight = sum (r / nearest)^-alpha, color0 and color1 the same with the seed's
- * chrominance. Start: nearest = infinity, index = -1, the rest 0. Add seeds in the same order for the same bits. */
+ * chrominance. Start: nearest = infinity, index = -1, the rest 0. Add seeds in the same order for the same bits. A
+ * cancelled call leaves some pixels with the seed and some without. */
 RC_API int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t field_stride, float alpha,
                             int32_t seed, float seed_color0, float seed_color1, float *nearest, int32_t *index,
-                            float *weight, float *color0, float *color1);
+                            float *weight, float *color0, float *color1, const rc_control *control);
 
 /* Turn the sums into means, in place; a pixel without weight is left at 0. */
 RC_API int32_t rc_blend_finish(int64_t count, const float *weight, float *color0, float *color1);
 
-/* Equation 1 over the k labels of every pixel of one row range [row0, row1) of rc_nearest's result.
- * `labels` is only read. `colors` holds two floats per seed. `bound` (may be null) receives the most that the seeds left out could change
- * either chrominance by, given that `count` seeds exist. Outputs are height x width, contiguous. */
-RC_API int32_t rc_blend_nearest(int64_t height, int64_t width, int64_t row0, int64_t row1, int32_t k, void *labels,
-                                int64_t count, const float *colors, float alpha, float *weight, float *color0,
-                                float *color1, float *bound);
+/* Equation 1 over the k labels of every pixel of one row range [row0, row1) of rc_nearest's result. `colors` holds two
+ * floats per seed. `bound` (may be null) receives the most that the seeds left out could change either chrominance by,
+ * given that `count` seeds exist. Outputs are height x width, contiguous; a pixel without a label gets the distance
+ * infinity, the index -1 and otherwise 0. */
+RC_API int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
+                                int64_t count, const float *colors, float alpha, float *nearest, int32_t *index,
+                                float *weight, float *color0, float *color1, float *bound);
 
 #endif

@@ -11,7 +11,7 @@ from ..errors import SeedsError, UsageError
 from ..image_files import read_image, write_png
 from ..inputs import photo_files, scan_files
 from ..outputs import IMAGE_SUFFIXES, SCENE_SUFFIXES, check_outputs, scene_outputs, tracked
-from ..report import build_report
+from ..report import build_report, input_entry, photo_entry, scan_entry, stamped
 from ..seeds import Seeds
 from .options import add_matching, add_photos, add_propagation, add_scan, settings_of
 from .session import choose_scan
@@ -77,16 +77,17 @@ def run(arguments, session):
     report = None
     if scene_paths or arguments.render or arguments.report:
         report = build_report(
-            scan,
+            scan_entry(scan, index),
             colorization,
             settings,
-            index=index,
             given_seeds=seeds,
-            photos=found_in,
-            inputs=inputs,
+            photos=[photo_entry(photo) for photo in found_in],
+            inputs=[input_entry(role, path, session.cancelled) for role, path in inputs],
             outputs=outputs,
+            noticed=scan.warnings,
             blender=session.blender_version,
         )
+        report = stamped(report)
 
     images = [path for path in arguments.output if path not in scene_paths]
     with tracked([path for _, path in outputs], session.written):

@@ -9,7 +9,7 @@ to the same contrast.
 import numpy as np
 
 CHANNELS = 5
-_NEIGHBORHOOD = 16.0
+_NEIGHBORHOOD, _REDUCED = 16.0, 4
 # Contrast below this share of the image's own is left weak instead of being raised to full strength: it is noise.
 _NOISE_SHARE = 0.3
 _FARTHER_THAN_ALL = 0.5
@@ -101,21 +101,27 @@ def _harmonics(smooth, inside):
     y = cv2.Sobel(smooth, cv2.CV_32F, 0, 1) * inside
     strength = np.sqrt(x * x + y * y) + 1e-9
     cos2, sin2 = (x * x - y * y) / strength, 2 * x * y / strength
-    return np.dstack([strength, cos2, sin2, (cos2 * cos2 - sin2 * sin2) / strength, 2 * cos2 * sin2 / strength])
+    return cv2.merge([strength, cos2, sin2, (cos2 * cos2 - sin2 * sin2) / strength, 2 * cos2 * sin2 / strength])
 
 
 def _normalized(features, seen):
     import cv2
 
-    weight = seen.astype(np.float32)
-    features = features * weight[..., None]
     if not seen.any():
-        return features
-    share = cv2.GaussianBlur(weight, (0, 0), _NEIGHBORHOOD) + 1e-3
-    mean = cv2.GaussianBlur(features[..., 0], (0, 0), _NEIGHBORHOOD) / share
-    squared = features[..., 0] ** 2
-    contrast = np.sqrt(cv2.GaussianBlur(squared, (0, 0), _NEIGHBORHOOD) / share)
-    contrast += _NOISE_SHARE * np.sqrt(squared[seen].mean()) + 1e-9
+        return np.zeros_like(features)
+    weight = seen.astype(np.float32)
+    strength = features[..., 0] * weight
+    squared = strength * strength
+    # So wide a blur of a reduced image is as good, for a fraction of the time.
+    height, width = seen.shape
+    size = (max(1, width // _REDUCED), max(1, height // _REDUCED))
+    small = cv2.resize(cv2.merge([weight, strength, squared]), size, interpolation=cv2.INTER_AREA)
+    small = cv2.GaussianBlur(small, (0, 0), _NEIGHBORHOOD / _REDUCED)
+    share, mean, power = cv2.split(cv2.resize(small, (width, height), interpolation=cv2.INTER_LINEAR))
+    share += 1e-3
+    contrast = np.sqrt(power / share) + (_NOISE_SHARE * np.sqrt(squared.sum() / weight.sum()) + 1e-9)
+    gain = (weight / contrast)[..., None]
     # Strength counts only where it differs from its neighborhood; the harmonics average to nothing by themselves.
-    features[..., 0] -= mean
-    return features / contrast[..., None] * weight[..., None]
+    features[..., 0] -= mean / share
+    features *= gain
+    return features

@@ -1,6 +1,6 @@
 """Method 2: from a scan, or all scans of a site, and photos to seeds."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -59,17 +59,17 @@ class Matching:
     warnings: tuple[str, ...]
 
 
-def match_seeds(scan, photos, settings=None, *, hand=None, progress=None, cancelled=None):
+def match_seeds(scan, photos, settings=None, *, hand=None, kept=None, progress=None, cancelled=None):
     """Find seeds in photos; see `match_photos`, which tells more.
 
     Returns
     -------
     Seeds
     """
-    return match_photos(scan, photos, settings, hand=hand, progress=progress, cancelled=cancelled).seeds
+    return match_photos(scan, photos, settings, hand=hand, kept=kept, progress=progress, cancelled=cancelled).seeds
 
 
-def match_photos(scan, photos, settings=None, *, hand=None, progress=None, cancelled=None):
+def match_photos(scan, photos, settings=None, *, hand=None, kept=None, progress=None, cancelled=None):
     """Find seeds for one scan in photos: Method 2.
 
     Parameters
@@ -83,6 +83,9 @@ def match_photos(scan, photos, settings=None, *, hand=None, progress=None, cance
         ``matching="paper"``: as published, by the most similar superpixel.
     hand : Seeds, optional
         Seeds picked by a person: they stay as they are, and four or more with a point of a photo give its camera.
+    kept : Seeds, optional
+        Seeds that stay as they are, reason and confidence included, found earlier for example; no seed is found on
+        their pixels. They say nothing about a photo's camera.
     progress : callable, optional
         Called as ``progress(fraction, text)`` with a fraction of 0 to 1.
     cancelled : callable, optional
@@ -95,16 +98,16 @@ def match_photos(scan, photos, settings=None, *, hand=None, progress=None, cance
     Raises
     ------
     SeedsError
-        If there is no photo, the scan has no return, or a seed of ``hand`` cannot be used.
+        If there is no photo, the scan has no return, or a seed of ``hand`` or ``kept`` cannot be used.
     ImageError
         If a photo cannot be read or is smaller than 16 pixels a side.
     Cancelled
         If ``cancelled()`` returned True.
     """
-    return match_site([scan], photos, settings, hand=[hand], progress=progress, cancelled=cancelled)[0]
+    return match_site([scan], photos, settings, hand=[hand], kept=[kept], progress=progress, cancelled=cancelled)[0]
 
 
-def match_site(scans, photos, settings=None, *, hand=None, progress=None, cancelled=None):
+def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=None, cancelled=None):
     """Find seeds for all scans of a site in the same photos, with one exposure for all and one model of appearance.
 
     Where the scans have poses, a photo verified on one scan is tried on the others where that puts it.
@@ -112,8 +115,8 @@ def match_site(scans, photos, settings=None, *, hand=None, progress=None, cancel
     Parameters
     ----------
     scans : sequence of Scan
-    hand : sequence of Seeds or None, optional
-        For each scan.
+    hand, kept : sequence of Seeds or None, optional
+        For each scan, as `match_photos`.
     photos, settings, progress, cancelled
         As `match_photos`.
 
@@ -130,13 +133,11 @@ def match_site(scans, photos, settings=None, *, hand=None, progress=None, cancel
     settings = settings or Settings()
     progress = progress or (lambda fraction, text: None)
     cancelled = cancelled or (lambda: False)
-    hand = list(hand) if hand is not None else [None] * len(scans)
     for scan in scans:
         if not scan.valid.any():
             raise SeedsError(f"{scan.name}: no pixel has a return, so nothing can be matched")
-    hand = [
-        None if own is None or len(own) == 0 else own.placed_on(scan)[0] for own, scan in zip(hand, scans, strict=True)
-    ]
+    hand = [None if own is None else _picked(own) for own in _placed(hand, scans)]
+    kept = _placed(kept, scans)
     progress(0.0, "Opening the photos")
     opened = opened_photos(photos)
     if not opened:
@@ -156,8 +157,8 @@ def match_site(scans, photos, settings=None, *, hand=None, progress=None, cancel
         ]
     progress(1.0, "Matched")
     return [
-        matching if own is None else Matching(joined(own, matching.seeds), matching.photos, matching.warnings)
-        for matching, own in zip(matchings, hand, strict=True)
+        Matching(joined(picked, stays, matching.seeds), matching.photos, matching.warnings)
+        for matching, picked, stays in zip(matchings, hand, kept, strict=True)
     ]
 
 
@@ -187,21 +188,35 @@ def opened_photos(photos):
     return opened
 
 
-def joined(hand, found):
-    """Return seeds picked by hand followed by found ones, of which none lies on a pixel that was picked."""
-    picked = set(zip(hand.rows.tolist(), hand.cols.tolist(), strict=True))
-    free = [
-        k for k, place in enumerate(zip(found.rows.tolist(), found.cols.tolist(), strict=True)) if place not in picked
+def joined(*groups):
+    """Return all seeds of several `Seeds` (or None), but on each pixel only those of the first that has one there."""
+    groups = [group for group in groups if group is not None]
+    taken, chosen = set(), []
+    for group in groups:
+        places = list(zip(group.rows.tolist(), group.cols.tolist(), strict=True))
+        chosen.append([index for index, place in enumerate(places) if place not in taken])
+        taken.update(places)
+    arrays = {
+        name: np.concatenate([getattr(group, name)[index] for group, index in zip(groups, chosen, strict=True)])
+        for name in ("rows", "cols", "rgb", "photo_xy", "confidence")
+    }
+    lists = {
+        name: tuple(getattr(group, name)[k] for group, index in zip(groups, chosen, strict=True) for k in index)
+        for name in ("photos", "reason")
+    }
+    return Seeds(**arrays, **lists)
+
+
+def _placed(seeds, scans):
+    """Seeds or None for each scan, on pixels with a return."""
+    seeds = list(seeds) if seeds is not None else [None] * len(scans)
+    return [
+        None if own is None or len(own) == 0 else own.placed_on(scan)[0] for own, scan in zip(seeds, scans, strict=True)
     ]
-    return Seeds(
-        rows=np.concatenate([hand.rows, found.rows[free]]),
-        cols=np.concatenate([hand.cols, found.cols[free]]),
-        rgb=np.concatenate([hand.rgb, found.rgb[free]]),
-        photos=(*hand.photos, *(found.photos[k] for k in free)),
-        photo_xy=np.concatenate([hand.photo_xy, found.photo_xy[free]]),
-        confidence=np.concatenate([np.ones(len(hand)), found.confidence[free]]),
-        reason=("hand",) * len(hand) + tuple(found.reason[k] for k in free),
-    )
+
+
+def _picked(seeds):
+    return replace(seeds, confidence=np.ones(len(seeds)), reason=("hand",) * len(seeds))
 
 
 def _as_published(scan, photos, settings, step):

@@ -39,6 +39,8 @@ class Camera:
     kind = "pose"
     ROTATION = (0, 1, 2, 6)
     """Which numbers of a candidate turn and zoom."""
+    TURNED = (0, 1, 2, 6, 7)
+    """The same and the lens."""
     POSE = (0, 1, 2, 3, 4, 5, 6)
     ALL = (0, 1, 2, 3, 4, 5, 6, 7)
     UNITS = np.array([0.02, 0.02, 0.02, 0.05, 0.05, 0.05, 0.05, 0.03])

@@ -149,28 +149,34 @@ def fitted(surfaces, model, free, *, blur, spread, penalty, rng):
     return model.moved(parents[0], surfaces.scale), float(values[best[0]])
 
 
-def tightened(surfaces, model):
+def tightened(surfaces, model, free):
     """Return the model fitted by least squares to the tiles that lie nearly where it puts them, or the same one.
 
-    What `fitted` leaves, a pixel or so, is taken away: the tops of the tiles' surfaces are known to a fraction of that.
+    Only its ``free`` numbers change. What `fitted` leaves, a pixel or so, is taken away: the tops of the tiles'
+    surfaces are known to a fraction of that.
     """
     from scipy.optimize import least_squares
 
     shift = _tops(surfaces.scores)
     near = np.hypot(*shift.T) <= _NEAR_TOP
-    free = list(model.ALL)
+    free = list(free)
     if near.sum() < 2 * len(free):
         return model
     sites, forward = surfaces.sites[near], np.linalg.pinv(surfaces.inverse[near])
     targets = surfaces.places[near] + np.einsum("nij,nj->ni", forward, shift[near])
 
+    def candidate(values):
+        all_numbers = np.zeros(len(model.ALL))
+        all_numbers[free] = values
+        return all_numbers
+
     def off(values):
-        places = model.projections(values[None], sites, surfaces.scale)[0]
+        places = model.projections(candidate(values)[None], sites, surfaces.scale)[0]
         pixels = np.einsum("nij,nj->ni", surfaces.inverse[near], np.nan_to_num(places - targets, nan=1e3))
         return np.concatenate([pixels.ravel(), _HOLD * np.sqrt(len(sites)) * values])
 
     solved = least_squares(off, np.zeros(len(free)), loss="soft_l1", f_scale=0.7, max_nfev=60)
-    return model.moved(solved.x, surfaces.scale)
+    return model.moved(candidate(solved.x), surfaces.scale)
 
 
 def _tops(scores):

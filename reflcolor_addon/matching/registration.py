@@ -7,7 +7,7 @@ import numpy as np
 from . import features
 from .refinement import Tiles, fitted, surfaces, tightened
 from .scan_image import TONES, ScanImage, pixel_steps, toned
-from .search import ASIDE_FOCALS, FOCALS, SphereMap, climbed, map_step, sharpened, viewing_distance, viewpoints
+from .search import Search, map_step
 from .verification import NEEDED_AT_SCANNER, NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
@@ -18,7 +18,8 @@ _GUESSES = 14
 _TRIED = 5
 _PENALTY = 0.004
 _ROUNDS, _PROMISING = 5, 0.2
-_CLIMBERS = 4
+# Of a homography whose tiles are in place no oftener than by chance nothing is hoped for.
+_LEAST_DEVIATIONS = 1.5
 _LEAST_CONTRAST = 8
 _LEAST_PIXELS = 400
 
@@ -64,14 +65,6 @@ class ScanViews:
         """Tiles on that image."""
         return self._once(("tiles", share, size), lambda: Tiles.of(self.image(tone, share), size))
 
-    def sphere(self, tone, center):
-        """The `SphereMap` from a place."""
-        return self._once(("sphere", tone, center), lambda: self.sphere_at(tone)(center))
-
-    def sphere_at(self, tone):
-        """What makes the `SphereMap` of a place anew."""
-        return lambda center: SphereMap(self.scan, self.tone(tone), np.array(center), self.step_deg)
-
     def _once(self, key, make):
         if key not in self._made:
             self._made[key] = make()
@@ -96,8 +89,25 @@ def register(views, photo, *, step=lambda text: None):
     best = Registration(None, NO_EVIDENCE, "nothing")
     if np.ptp(photo.levels[0][0]) < _LEAST_CONTRAST or not views.enough:
         return best
-    for attempt, tone in _ATTEMPTS:
-        found = attempt(views, photo, tone, step)
+    search = Search(views, photo)
+
+    def features_step():
+        step(f"{photo.name}: matching features")
+
+    def search_step():
+        step(f"{photo.name}: searching directions")
+
+    def aside_step():
+        step(f"{photo.name}: searching viewpoints")
+
+    attempts = (
+        lambda: _by_features(views, photo, "ranks", features_step),
+        lambda: _tried(views, photo, "ranks", search.from_scanner("ranks", search_step), False, step),
+        lambda: _tried(views, photo, "ranks", search.from_aside("ranks", aside_step), True, step),
+        lambda: _tried(views, photo, "percentiles", search.from_scanner("percentiles", search_step), False, step),
+    )
+    for attempt in attempts:
+        found = attempt()
         if found.evidence.rank > best.evidence.rank:
             best = found
         if best.accepted and best.evidence.rank >= _CONVINCING:
@@ -135,10 +145,15 @@ def refined(views, photo, model, tone, levels, *, free, rng):
     return model, NO_EVIDENCE if found is None else judged(found)
 
 
-def finely(views, photo, model, tone, rng):
-    """Return a camera or homography that is nearly right, fitted with all it has, and its `Evidence`."""
+def finely(views, photo, model, tone, rng, *, turned_only=False):
+    """Return a camera or homography that is nearly right, fitted with all it has, and its `Evidence`.
+
+    With ``turned_only`` a camera stays where it is: where that is right, nothing is as sure.
+    """
     if model.kind == "homography":
         stages = [(model.ALL, [(*_FINE, 6, 0.5, 0.4)])]
+    elif turned_only:
+        stages = [(model.ROTATION, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 6, 0.5, 0.3)])]
     else:
         stages = [(model.POSE, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)]), (model.ALL, [(*_FINE, 6, 0.5, 0.2)])]
     for free, levels in stages:
@@ -150,12 +165,12 @@ def finely(views, photo, model, tone, rng):
         found = surfaces(image, tiles, photo, model, RADIUS)
         if found is None:
             return model, NO_EVIDENCE
-        model = tightened(found, model)
+        model = tightened(found, model, model.TURNED if turned_only else model.ALL)
     return model, evidence(image, photo, model)
 
 
 def _by_features(views, photo, tone, step):
-    """Matching features"""
+    """The best homography of the scan's grid: the straight one, or one from matching features."""
     rng = np.random.default_rng(0)
     best = Registration(None, NO_EVIDENCE, "features")
     scan = views.scan
@@ -169,8 +184,12 @@ def _by_features(views, photo, tone, step):
         for image in images:
             yield from features.homographies(image, scan.shape, photo)
 
+    step()
     for model in candidates():
-        step(f"{photo.name}: matching features")
+        step()
+        rough = surfaces(views.image(tone, _MIDDLE[0]), views.tiles(tone, *_MIDDLE), photo, model, RADIUS)
+        if rough is None or judged(rough).deviations < _LEAST_DEVIATIONS:
+            continue
         model, proof = finely(views, photo, model, tone, rng)
         if proof.rank > best.evidence.rank:
             best = Registration(model, proof, "features")
@@ -179,41 +198,15 @@ def _by_features(views, photo, tone, step):
     return best
 
 
-def _from_scanner(views, photo, tone, step):
-    """Searching directions"""
-    return _searched(views, photo, tone, [(0.0, 0.0, 0.0)], (-18.0, 0.0, 18.0), step)
-
-
-def _from_aside(views, photo, tone, step):
-    """Searching viewpoints"""
-    return _searched(views, photo, tone, viewpoints(views.scan), (0.0, -15.0), step)
-
-
-def _searched(views, photo, tone, centers, pitches, step):
+def _tried(views, photo, tone, guesses, aside, step):
+    """The best camera from guesses, of which the better ones go on to the finer levels."""
     rng = np.random.default_rng(0)
-    aside = len(centers) > 1
-    maps, guesses = {}, []
-    for center in centers:
-        step(f"{photo.name}: searching directions")
-        sphere = views.sphere(tone, center)
-        maps[sphere.center] = sphere
-        guesses += sphere.guesses(photo, ASIDE_FOCALS if aside else FOCALS, pitches, (0.0,))
-    guesses.sort(key=lambda guess: -guess.score)
-    guesses = sharpened(maps, photo, guesses, 5)
-    if aside:
-        climbers = []
-        for guess in guesses:
-            if len(climbers) < _CLIMBERS and guess.center not in [other.center for other in climbers]:
-                climbers.append(guess)
-        for guess in climbers:
-            step(f"{photo.name}: searching viewpoints")
-            guesses.append(climbed(views.sphere_at(tone), photo, guess, viewing_distance(views.scan)))
-        guesses.sort(key=lambda guess: -guess.score)
     coarse = []
     for guess in guesses[:_GUESSES]:
         step(f"{photo.name}: trying directions")
         model = guess.camera(photo)
-        coarse.append(refined(views, photo, model, tone, [(*_COARSE, 10, 1.5, 1.2)], free=model.ROTATION, rng=rng))
+        free = model.POSE if aside else model.ROTATION
+        coarse.append(refined(views, photo, model, tone, [(*_COARSE, 10, 1.5, 1.2)], free=free, rng=rng))
     coarse.sort(key=lambda found: -found[1].rank)
     middle = []
     for model, _ in coarse[:_TRIED]:
@@ -222,26 +215,21 @@ def _searched(views, photo, tone, centers, pitches, step):
         middle.append(refined(views, photo, model, tone, [(*_MIDDLE, 10, 1.0, 0.8)], free=free, rng=rng))
     middle.sort(key=lambda found: -found[1].rank)
     best = Registration(None, NO_EVIDENCE, "search")
-    for model, _ in middle[:2]:
-        step(f"{photo.name}: refining")
-        model, proof = finely(views, photo, model, tone, rng)
-        if proof.rank > best.evidence.rank:
-            best = Registration(model, proof, "search")
+    for start, _ in middle[:2]:
+        for turned_only in (False,) if aside else (True, False):
+            step(f"{photo.name}: refining")
+            model, proof = finely(views, photo, start, tone, rng, turned_only=turned_only)
+            if proof.rank > best.evidence.rank:
+                best = Registration(model, proof, "search")
+        if best.evidence.rank >= _CONVINCING:
+            break
     # A camera far from its guess needs several rounds: what it sees changes while it moves.
     for _ in range(_ROUNDS):
         if best.evidence.rank < _PROMISING:
             break
         step(f"{photo.name}: refining")
         model, proof = finely(views, photo, best.model, tone, rng)
-        if proof.strength <= 1.02 * best.evidence.strength:
+        if proof.rank <= 1.02 * best.evidence.rank:
             break
         best = Registration(model, proof, "search")
     return best
-
-
-_ATTEMPTS = (
-    (_by_features, "ranks"),
-    (_from_scanner, "ranks"),
-    (_from_aside, "ranks"),
-    (_from_scanner, "percentiles"),
-)

@@ -45,7 +45,12 @@ def pytest_terminal_summary(terminalreporter):
     for one in told:
         pictures = f"{len(one['pictures'])} pictures in {OUT.name}/" if one["pictures"] else ""
         terminalreporter.write_line(f"{one['seconds']:6.1f} s {one['checks']:5} checks  {one['name']}  {pictures}")
-    stalls = [note for one in told for note in one["notes"]]
+    notes = [note for one in told for note in one["notes"]]
+    stalls = [note for note in notes if "stall" in note]
+    for note in notes:
+        if "measure" in note:
+            figures = (f"{name} {value:.2f}" for name, value in note.items() if name != "measure")
+            terminalreporter.write_line(f"{note['measure']}: {'; '.join(figures)}")
     if not stalls:
         return
     terminalreporter.section("longest gaps (ms): event loop, computing in it, between redraws")

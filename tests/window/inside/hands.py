@@ -27,14 +27,17 @@ class Hands:
     def click(self, place, button="LEFT", **held):
         """Click at a place, with keys held: ``shift=True``, ``ctrl=True``, ``alt=True``."""
         yield from self.move(place)
+        yield from self._hold(held)
         self._event(_BUTTONS[button], "PRESS", **held)
         yield from self._turns(1)
         self._event(_BUTTONS[button], "RELEASE", **held)
         yield from self._turns(2)
+        yield from self._let_go(held)
 
     def drag(self, start, end, button="LEFT", steps=_STEPS, through=(), **held):
         """Press at a place, move to another, by way of others if need be, and release there."""
         yield from self.move(start)
+        yield from self._hold(held)
         self._event(_BUTTONS[button], "PRESS", **held)
         yield from self._turns(1)
         for place in (*through, end):
@@ -46,6 +49,7 @@ class Hands:
                 yield from self._turns(1)
         self._event(_BUTTONS[button], "RELEASE", **held)
         yield from self._turns(2)
+        yield from self._let_go(held)
 
     def key(self, name, text="", **held):
         """Press and release a key by Blender's name for it ("Z", "ESC", "RET"), where the mouse is."""
@@ -65,6 +69,17 @@ class Hands:
         yield from self.move(place)
         for _ in range(abs(turns)):
             self._event("WHEELUPMOUSE" if turns > 0 else "WHEELDOWNMOUSE", "PRESS")
+            yield from self._turns(1)
+
+    def _hold(self, held):
+        """Press the keys to be held: by them, not by the mouse's events, Blender knows what is held in a drag."""
+        for name in held:
+            self._event(f"LEFT_{name.upper()}", "PRESS", **{name: True})
+            yield from self._turns(1)
+
+    def _let_go(self, held):
+        for name in held:
+            self._event(f"LEFT_{name.upper()}", "RELEASE")
             yield from self._turns(1)
 
     def _event(self, kind, value, **more):

@@ -1,0 +1,34 @@
+"""A colorization on its object: colors and how far to trust them, at every vertex and as an image."""
+
+from .images import write_image
+from .looks import refresh_look, show_look
+from .scan_object import (
+    COLORIZED,
+    CONFIDENCE,
+    NEAREST_SEED,
+    add_colors,
+    add_values,
+    grid_indices,
+)
+
+
+def write_colorization(obj, colorization):
+    """Write a Colorization onto the mesh and the image of its object; what is shown stays what it is.
+
+    The attribute ``confidence`` is of 0 to 1, ``nearest_seed`` the index of a seed in ``colorization.seeds``, which is
+    their order in the provenance, or -1 where none reaches. Vertices that were deleted since are left out.
+    """
+    place = grid_indices(obj)
+    add_colors(obj, COLORIZED, colorization.rgb[place])
+    add_values(obj, CONFIDENCE, colorization.confidence[place])
+    add_values(obj, NEAREST_SEED, colorization.nearest_seed[place])
+    state = obj.reflcolor
+    name = f"{obj.name} {COLORIZED}"
+    state.colorized_image = write_image(state.colorized_image, name, colorization.rgb, is_data=False)
+    refresh_look(obj)
+
+
+def show_colorization(obj, colorization):
+    """Write a Colorization onto its object, and show it in viewports, renders and exports."""
+    write_colorization(obj, colorization)
+    show_look(obj, "colorized")

@@ -1,0 +1,31 @@
+"""Copy where a scan's colors are from."""
+
+import bpy
+
+from . import polls
+from .provenance import provenance_text
+
+
+class REFLCOLOR_OT_copy_provenance(bpy.types.Operator):
+    """Copy the whole report on the scan's colors, as JSON, to the clipboard"""
+
+    bl_idname = "reflcolor.copy_provenance"
+    bl_label = "Copy Provenance"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        if not polls.has_scan(cls, context):
+            return False
+        if provenance_text(polls.scan_object(context)) is None:
+            cls.poll_message_set("Colorize the scan first")
+            return False
+        return True
+
+    def execute(self, context):
+        context.window_manager.clipboard = provenance_text(polls.scan_object(context))
+        self.report({"INFO"}, "Copied the report to the clipboard")
+        return {"FINISHED"}
+
+
+classes = (REFLCOLOR_OT_copy_provenance,)

@@ -1,0 +1,32 @@
+"""Do what a drag in an Image Editor means."""
+
+import bpy
+
+from ..reflcolor_addon.picking import clamped_point
+from .drag_seeds import DragSeeds
+from .image_sides import event_side
+from .pointer import PointerOperator
+from .stroke_seeds import StrokeSeeds
+
+
+class REFLCOLOR_OT_drag(PointerOperator, bpy.types.Operator):
+    """Drag a seed, with all that are selected if it is, to move it, in a photo to another color; drag elsewhere in the
+    reflectance image to lay a line of seeds"""
+
+    bl_idname = "reflcolor.drag"
+    bl_label = "Move Seeds or Stroke"
+    bl_options = {"UNDO", "BLOCKING", "INTERNAL"}
+    hint = "Move Seeds or Stroke"
+
+    def begin(self, context, place):
+        side = event_side(context)
+        if side is None:
+            return None
+        hit, xy = side.hit(place), side.view.to_image(place)
+        if hit is None and (not side.is_scan or tuple(xy) != clamped_point(xy, side.image.size)):
+            return None
+        context.view_layer.objects.active = side.obj
+        return StrokeSeeds(context, side, place) if hit is None else DragSeeds(side, hit, place)
+
+
+classes = (REFLCOLOR_OT_drag,)

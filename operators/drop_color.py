@@ -1,0 +1,29 @@
+"""Let go of the picked color."""
+
+import bpy
+
+from .editors import redraw_editors
+
+
+class REFLCOLOR_OT_drop_color(bpy.types.Operator):
+    """Let go of the picked color; the next seed waits for its own"""
+
+    bl_idname = "reflcolor.drop_color"
+    bl_label = "Drop Color"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if not context.scene.reflcolor.picked:
+            cls.poll_message_set("Pick a color first")
+            return False
+        return True
+
+    def execute(self, context):
+        settings = context.scene.reflcolor
+        settings.picked, settings.picked_photo = False, None
+        redraw_editors()
+        return {"FINISHED"}
+
+
+classes = (REFLCOLOR_OT_drop_color,)

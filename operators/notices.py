@@ -1,0 +1,63 @@
+"""What the last operation on a scan had to say: kept with its object, for the panel to list."""
+
+import re
+
+import bpy
+from bpy.props import BoolProperty, IntProperty, StringProperty
+
+from .texts import told
+
+# More than a person reads; the first ones tell what is wrong.
+MAX_NOTICES = 200
+_SEED = re.compile(r"seed (\d+): ")
+
+
+class ReflcolorNotice(bpy.types.PropertyGroup):
+    """A result or a warning of the last operation on the scan"""
+
+    text: StringProperty(name="Text", description="What was said")
+    warning: BoolProperty(name="Warning", description="Whether it is a warning, not a result")
+    row: IntProperty(name="Row", description="Row of the seed that is meant; -1 for none", default=-1)
+    col: IntProperty(name="Column", description="Column of the seed that is meant; -1 for none", default=-1)
+
+
+def tell(operator, obj, result, warnings, seeds=None, details=()):
+    """Report what came of an operation, and keep it with the object in place of what was kept before.
+
+    Parameters
+    ----------
+    operator : bpy.types.Operator
+    obj : bpy.types.Object
+    result : str
+    warnings : sequence of str
+        One line each.
+    seeds : Seeds, optional
+        What a warning "seed 3: ..." counts, from 1.
+    details : sequence of str
+        More of the result, to be read in the list only.
+    """
+    notices = obj.reflcolor.notices
+    notices.clear()
+    for warning in warnings:
+        operator.report({"WARNING"}, warning)
+    operator.report({"INFO"}, result)
+    for text in (result, *details):
+        notices.add().text = text
+    for warning in warnings[:MAX_NOTICES]:
+        notice = notices.add()
+        notice.text, notice.warning = warning, True
+        meant = _SEED.match(warning)
+        if meant and seeds is not None and 1 <= int(meant[1]) <= len(seeds):
+            notice.row, notice.col = (int(places[int(meant[1]) - 1]) for places in (seeds.rows, seeds.cols))
+    if len(warnings) > MAX_NOTICES:
+        notice = notices.add()
+        notice.text = told("{count} more warnings", count=len(warnings) - MAX_NOTICES)
+        notice.warning = True
+
+
+def seed_of(obj, notice):
+    """Return the index of the seed that a notice is about; None if it is about none, or the seed is gone or moved."""
+    if notice.row < 0:
+        return None
+    places = ((seed.row, seed.col) for seed in obj.reflcolor.seeds)
+    return next((index for index, place in enumerate(places) if place == (notice.row, notice.col)), None)

@@ -1,0 +1,62 @@
+"""Do what a click in an Image Editor means."""
+
+import bpy
+from bpy.props import EnumProperty
+
+from ..reflcolor_addon.picking import clamped_point
+from .image_sides import event_side
+
+
+class REFLCOLOR_OT_pick(bpy.types.Operator):
+    """Click in the reflectance image to place a seed, in a photo to pick its color, on a seed to select it"""
+
+    bl_idname = "reflcolor.pick"
+    bl_label = "Pick Seed or Color"
+    bl_options = {"INTERNAL"}
+
+    act: EnumProperty(
+        name="Act",
+        description="What to do at the pointer",
+        items=(
+            ("pick", "Pick", "Place or select a seed, or pick a color"),
+            ("extend", "Extend", "Add a seed to what is selected, or take it off"),
+            ("delete", "Delete", "Delete the seed"),
+            ("sample", "Sample", "Take the color for the next seeds"),
+        ),
+    )
+
+    def invoke(self, context, event):
+        side, place = event_side(context), (event.mouse_region_x, event.mouse_region_y)
+        if side is None:
+            self.report({"INFO"}, "Import a scan, and show its reflectance image or a photo here")
+            return {"CANCELLED"}
+        if context.view_layer.objects.get(side.obj.name) is None:
+            self.report({"WARNING"}, f"{side.obj.name} is not in this view layer")
+            return {"CANCELLED"}
+        context.view_layer.objects.active = side.obj
+        hit = side.hit(place) if self.act != "sample" else None
+        if self.act == "delete":
+            return {"CANCELLED"} if hit is None else bpy.ops.reflcolor.remove_seed("EXEC_DEFAULT", True, index=hit)
+        if hit is not None:
+            extend = self.act == "extend"
+            return bpy.ops.reflcolor.select_seed("EXEC_DEFAULT", True, index=hit, extend=extend)
+        if self.act == "extend":
+            return {"CANCELLED"}
+        xy = side.view.to_image(place)
+        if tuple(xy) != clamped_point(xy, side.image.size):
+            # Beside the image: as in other editors, that selects nothing.
+            return (
+                bpy.ops.reflcolor.select_all_seeds("EXEC_DEFAULT", True, which="none")
+                if side.marks()[0].size
+                else {"CANCELLED"}
+            )
+        if self.act == "pick" and side.is_scan:
+            row, col = side.pixel(place)
+            return bpy.ops.reflcolor.place_seed("EXEC_DEFAULT", True, row=row, col=col)
+        sample = side.is_scan or self.act == "sample"
+        return bpy.ops.reflcolor.pick_color(
+            "EXEC_DEFAULT", True, photo=side.image.name, photo_xy=xy, sample_only=sample
+        )
+
+
+classes = (REFLCOLOR_OT_pick,)

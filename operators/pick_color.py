@@ -1,0 +1,65 @@
+"""Pick a color in a photo: for the selected seeds, or for those that are placed next."""
+
+import bpy
+from bpy.props import BoolProperty, FloatVectorProperty, StringProperty
+
+from ..reflcolor_addon.errors import SeedsError
+from . import polls
+from .editors import select_only
+from .images import read_pixel
+from .live_update import redraw_seeds
+from .load_photo import list_photo
+from .quiet import point_to, write_quietly
+from .reports import reported
+from .seed_list import FOUND_BY, selected_seeds
+
+
+class REFLCOLOR_OT_pick_color(bpy.types.Operator):
+    """Pick a color in a photo, for the selected seeds or, if none is, for those that are placed next"""
+
+    bl_idname = "reflcolor.pick_color"
+    bl_label = "Pick Color"
+    bl_options = {"REGISTER", "UNDO"}
+
+    photo: StringProperty(name="Photo", description="Name of a loaded photo")
+    photo_xy: FloatVectorProperty(
+        name="Point", description="Place in the photo, in pixels from its top left corner", size=2
+    )
+    sample_only: BoolProperty(
+        name="Sample Only", description="Keep the color for the next seeds, without noting the point of the photo"
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return polls.has_scan(cls, context)
+
+    @reported
+    def execute(self, context):
+        obj, settings = polls.scan_object(context), context.scene.reflcolor
+        image = bpy.data.images.get(self.photo)
+        color = read_pixel(image, *self.photo_xy) if image is not None else None
+        if color is None:
+            x, y = self.photo_xy
+            raise SeedsError(f"photo {self.photo} has no color at {x:g}, {y:g}; load the photo, pick inside it")
+        selected = [] if self.sample_only or settings.picked else selected_seeds(obj)
+        for seed in (obj.reflcolor.seeds[index] for index in selected):
+            give_color(seed, color, image if len(selected) == 1 else None, self.photo_xy)
+        if selected:
+            select_only(obj.reflcolor.seeds, [])
+        else:
+            settings.picked_color = color
+            settings.picked_photo, settings.picked_xy = (None if self.sample_only else image), self.photo_xy
+        if not self.sample_only:
+            list_photo(context, image)
+        redraw_seeds(obj)
+        return {"FINISHED"}
+
+
+def give_color(seed, color, photo, photo_xy):
+    """Color a seed by a person's choice, with the point of the photo that it is from if there is one."""
+    write_quietly(seed, color=tuple(color), photo_xy=tuple(photo_xy), has_color=True)
+    write_quietly(seed, reason=FOUND_BY.index("hand"), confidence=1.0)
+    point_to(seed, photo=photo)
+
+
+classes = (REFLCOLOR_OT_pick_color,)
