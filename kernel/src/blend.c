@@ -10,8 +10,9 @@
 #define RC_BINS 256
 /* Against rounding in their sums. */
 #define RC_RAISED 1.0001f
-/* Chords drawn to find how far a mean can move; more would change little. */
-#define RC_CHORDS 4
+/* Chords drawn to find how far a mean can move, and what needs no finer answer, in units of chrominance. */
+#define RC_CHORDS 3
+#define RC_FINE 0.25f
 
 int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t field_stride, float alpha,
                      int32_t seed, float seed_color0, float seed_color1, float *nearest, int32_t *index,
@@ -128,38 +129,83 @@ static float chord(const float *table, float x)
     return table[bin] + (x - (float)bin) * (table[bin + 1] - table[bin]);
 }
 
-/* The most by which a mean of weight w can move to one side when every seed left out gets a weight from 0 to `each`.
- * All seeds beyond a place t units off push together with each * q(t), where q(t) is how far they lie beyond it; the
- * mean stops where w * t outweighs that. q is convex, is `beyond` at 0, and 0 at `span`: where the chord between two
- * known places meets w * t / each is no nearer than where q does, and becomes the next known place. */
-static float shift(const float *table, float x, float per_unit, float beyond, float span, float each, float w)
+/* How far a mean of weight w can move to one side when every seed left out gets a weight from 0 to `each`.
+ *
+ * All seeds beyond a place t off push together with each * q(t), where q(t) is how far they lie beyond it; the mean
+ * stops where w * t outweighs that. q is convex, is `beyond` at 0, and 0 at `span`: where the chord between two known
+ * places meets w * t / each is no nearer than where q does. */
+typedef struct {
+    const rc_spread *spread;
+    float mean, beyond, span, most; /* most: what the first chord tells */
+    int above;
+} rc_side;
+
+static rc_side side_of(const rc_spread *s, float mean, int above, float beyond, float each, float w)
 {
-    if (!(beyond > 0.0f) || !(span > 0.0f)) {
-        return 0.0f;
+    rc_side side = {s, mean, beyond, above ? s->high - mean : mean - s->low, 0.0f, above};
+    if (beyond > 0.0f && side.span > 0.0f) {
+        side.most = each * beyond * side.span / (w * side.span + each * beyond);
     }
-    float t = span, q = 0.0f;
-    for (int n = 0; n < RC_CHORDS; n++) {
-        t = each * beyond / (w + each * (beyond - q) / t);
-        const float listed = chord(table, x + per_unit * t), least = w * t / each;
-        q = listed < least ? listed : least;
+    return side;
+}
+
+static float listed(const rc_side *side, float t)
+{
+    const rc_spread *const s = side->spread;
+    const float x = ((side->above ? side->mean + t : side->mean - t) - s->low) * s->bins_per_unit;
+    const float q = chord(side->above ? s->above : s->below, x);
+    return q < side->beyond ? q : side->beyond;
+}
+
+static float refined(const rc_side *side, float each, float w)
+{
+    float t0 = 0.0f, q0 = side->beyond, t = side->most;
+    for (int n = 0; n < RC_CHORDS && t > RC_FINE; n++) {
+        float q = listed(side, t);
+        q = each * q < w * t ? q : w * t / each;
+        const float middle = 0.5f * (t0 + t), q_middle = listed(side, middle);
+        if (each * q_middle > w * middle) {
+            t0 = middle;
+            q0 = q_middle;
+        } else {
+            t = middle;
+            q = q_middle;
+        }
+        const float slope = (q0 - q) / (t - t0), met = each * (q0 + slope * t0) / (w + each * slope);
+        t = met < t ? met : t;
     }
     return t;
 }
 
-/* The most that the seeds left out can move one chrominance of a pixel whose k nearest seeds are `id`. */
-static float bound_of(const rc_spread *s, float mean, int32_t k, const int32_t *id, const float *colors, float each,
-                      float w)
+/* The most that the seeds left out, with weights up to `each`, can move either chrominance of a pixel. */
+static float bound_of(const rc_spread *spread, const float *mean, int32_t k, const int32_t *id, const float *colors,
+                      float each, float w)
 {
-    const float x = (mean - s->low) * s->bins_per_unit;
-    float above = chord(s->above, x), below = chord(s->below, x);
-    for (int32_t i = 0; i < k; i++) {
-        const float off = colors[2 * id[i]] - mean;
-        above -= off > 0.0f ? off : 0.0f;
-        below += off < 0.0f ? off : 0.0f;
+    rc_side side[4];
+    int first = 0;
+    for (int i = 0; i < 2; i++) {
+        const float x = (mean[i] - spread[i].low) * spread[i].bins_per_unit;
+        float above = chord(spread[i].above, x), below = chord(spread[i].below, x);
+        for (int32_t n = 0; n < k; n++) {
+            const float off = colors[2 * id[n] + i] - mean[i];
+            above -= off > 0.0f ? off : 0.0f;
+            below += off < 0.0f ? off : 0.0f;
+        }
+        side[2 * i] = side_of(spread + i, mean[i], 1, above, each, w);
+        side[2 * i + 1] = side_of(spread + i, mean[i], 0, below, each, w);
     }
-    const float up = shift(s->above, x, s->bins_per_unit, above, s->high - mean, each, w);
-    const float down = shift(s->below, x, -s->bins_per_unit, below, mean - s->low, each, w);
-    return up > down ? up : down;
+    for (int i = 1; i < 4; i++) {
+        first = side[i].most > side[first].most ? i : first;
+    }
+    /* Mostly the side that the first chords favor stays ahead of what they tell of the others. */
+    float bound = refined(side + first, each, w);
+    for (int i = 0; i < 4; i++) {
+        if (i != first && side[i].most > bound) {
+            const float other = refined(side + i, each, w);
+            bound = other > bound ? other : bound;
+        }
+    }
+    return bound;
 }
 
 int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
@@ -217,9 +263,8 @@ int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int3
                 bound[out] = 0.0f;
                 if (n == k && count > k && relative[k - 1] > 0.0f) {
                     /* Each seed left out lies at least as far as the last one kept. */
-                    const float bound0 = bound_of(spread, color0[out], k, id, colors, relative[k - 1], w);
-                    const float bound1 = bound_of(spread + 1, color1[out], k, id, colors + 1, relative[k - 1], w);
-                    bound[out] = bound0 > bound1 ? bound0 : bound1;
+                    const float mean[2] = {color0[out], color1[out]};
+                    bound[out] = bound_of(spread, mean, k, id, colors, relative[k - 1], w);
                 }
             }
         }
