@@ -43,6 +43,11 @@ class Blend:
         self._nearest_seed[nearer] = self._count
         self._count += 1
 
+    def add_all(self, fields, colors, control=None, run=map):
+        """Add several seeds."""
+        for distances, color in zip(fields, colors, strict=True):
+            self.add(distances, color)
+
     def mean(self):
         """Return the Mean of the seeds so far; more can be added afterwards."""
         reached = np.isfinite(self._least)
