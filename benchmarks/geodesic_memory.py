@@ -2,8 +2,9 @@
 
     python -m benchmarks.geodesic_memory exact IMAGE HEIGHT WIDTH SEEDS THREADS
     python -m benchmarks.geodesic_memory nearest IMAGE HEIGHT WIDTH SEEDS K
-    python -m benchmarks.geodesic_memory levin IMAGE HEIGHT WIDTH SEEDS 0
-    python -m benchmarks.geodesic_memory levin-stock IMAGE HEIGHT WIDTH SEEDS 0
+    python -m benchmarks.geodesic_memory SOLVER IMAGE HEIGHT WIDTH SEEDS 0
+
+SOLVER is how Levin's system is solved: symmetric, default or each.
 
 Prints JSON: seconds of the processor, valid pixels, all pixels, bytes at the peak beyond what was there before.
 """
@@ -18,7 +19,11 @@ from benchmarks.quality import peers
 from reflcolor_addon import kernel
 
 _ALPHA = 6.0
-SOLVERS = {"levin": peers.solve_symmetrically, "levin-stock": peers.solve_in_stock_order}
+SOLVERS = {
+    "symmetric": peers.solve_symmetrically,
+    "default": peers.solve_by_default,
+    "each": peers.solve_each_by_default,
+}
 
 
 def status(field):
