@@ -198,15 +198,26 @@ class Colorizer:
             self._alpha, done = self.settings.alpha, 0
             self._blend = self._engine.blend(self._alpha)
 
+        held = done + sum(self._fields.get(pixel) is not None for pixel, _ in wanted[done:])
+        ahead, inside = done, np.count_nonzero(self.scan.valid)
+
+        def working(settled=0):
+            nonlocal ahead
+            # Pixels are settled a little more than once: they never tell of more than the threads are at.
+            most = min(len(self._blended) + self.threads, len(wanted))
+            ahead = max(ahead, len(self._blended), min(held + settled / inside, most))
+            progress(ahead / len(wanted), f"Seed {len(self._blended)} of {len(wanted)}")
+
         def added(index, field):
             self._blended.append(wanted[done + index])
             if near is not None:
                 near[0][:, done + index] = field[np.unravel_index(pixels, self.scan.shape)]
-            progress(len(self._blended) / len(wanted), f"Seed {len(self._blended)} of {len(wanted)}")
+            working()
 
-        with_threads = {"threads": self.threads, "held": self._fields}
+        how = {"threads": self.threads, "held": self._fields}
+        told = {"added": added, "working": working, "cancelled": cancelled}
         try:
-            add_fields(self._engine, self._blend, wanted[done:], added=added, cancelled=cancelled, **with_threads)
+            add_fields(self._engine, self._blend, wanted[done:], **how, **told)
         except BaseException:
             self._forget_sums()
             raise

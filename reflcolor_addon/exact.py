@@ -42,7 +42,7 @@ class HeldFields:
         self.nbytes = 0
 
 
-def add_fields(engine, blend, seeds, *, threads, held, added, cancelled):
+def add_fields(engine, blend, seeds, *, threads, held, added, cancelled, working=lambda pixels: None):
     """Add seeds to the sums of eq. 1, in their order, whatever the number of threads.
 
     A few fields are computed ahead, one in every thread; those that are held are not computed.
@@ -60,6 +60,8 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled):
         Called as ``added(index, field)`` when a seed was added.
     cancelled : callable
         Asked now and then; when it returns True, the work ends.
+    working : callable, optional
+        Called now and then with the number of pixels settled in all fields so far; the scipy engine counts none.
 
     Raises
     ------
@@ -67,6 +69,10 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled):
         The sums are then of no more use.
     """
     control = engine.control()
+
+    def tell():
+        working(control.done)
+
     # One thread more: this one is to ask whether it should go on.
     with ThreadPoolExecutor(threads + 1, "reflcolor") as pool:
         ahead, index = {}, 0
@@ -82,12 +88,12 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled):
                     if other not in ahead:
                         ahead[other] = pool.submit(engine.field, seeds[other][0], control)
                 if not fields:
-                    fields.append(awaited(ahead.pop(index), control, lambda: None, cancelled))
+                    fields.append(awaited(ahead.pop(index), control, tell, cancelled))
                     end = index + 1
                 colors = [color for _, color in seeds[index:end]]
                 run = pool.map if len(fields) > 1 else map
                 summed = pool.submit(blend.add_all, fields, colors, control, run)
-                awaited(summed, control, lambda: None, cancelled)
+                awaited(summed, control, tell, cancelled)
                 for field in fields:
                     held.hold(seeds[index][0], field)
                     added(index, field)
