@@ -7,6 +7,7 @@ import numpy as np
 from .edges import edge_features, filled
 
 _LARGEST_SIDE = 2048
+_LARGEST_COLOR_SIDE = 6000
 
 
 class PhotoImage:
@@ -17,12 +18,25 @@ class PhotoImage:
     name : str
     rgb : (H, W, 3) uint8
         sRGB.
+
+    Attributes
+    ----------
+    height, width : int
+        Of the photo as given: its places are counted in these pixels.
+    rgb : (h, w, 3) uint8
+        The photo, or where a side is longer than 6000 pixels what is left of it at that size.
     """
 
     def __init__(self, name, rgb):
+        import cv2
+
         self.name = name
-        self.rgb = rgb
         self.height, self.width = rgb.shape[:2]
+        scale = max(self.width, self.height) / _LARGEST_COLOR_SIDE
+        if scale > 1:
+            size = (max(1, round(self.width / scale)), max(1, round(self.height / scale)))
+            rgb = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
+        self.rgb = rgb
 
     @cached_property
     def levels(self):
