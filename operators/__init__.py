@@ -43,9 +43,11 @@ from . import (
     select_all_seeds,
     select_region,
     select_seed,
+    set_up_render,
     show_look,
     show_notice,
     simulate,
+    step_back,
     tools,
     wipe,
     wipe_handle,
@@ -91,6 +93,8 @@ _MODULES = (
     pick_in_view,
     seed_picking,
     close_seed_picking,
+    set_up_render,
+    step_back,
 )
 # What draws, listens or stands in a toolbar, with register() and unregister() of its own.
 _SERVICES = (draw_seeds, live_update, tools, wipe, wipe_handle)

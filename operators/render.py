@@ -13,14 +13,22 @@ SIZE = (1280, 800)
 # Suns without shadows: a scan has holes and open backs, whose shadows would look like dirt. Each is the share of a
 # surface's own color that it gives when facing the light.
 _LIGHTS = (("Headlight", None, 0.55), ("Sky", (0.0, 0.0, 1.0), 0.35), ("Side", (-0.6, -0.5, 0.4), 0.25))
+# On objects: added for a picture.
+_ADDED = "reflcolor_for_render"
 
 
 def add_camera_and_lights(context, obj):
-    """Add a camera that frames the object, and plain lights, to the scene; both are ready to render."""
+    """Add a camera that frames the object, and plain lights, to the scene; both are ready to render.
+
+    What was added before, for this or another object, makes room for it.
+    """
     scene = context.scene
+    for added in [other for other in scene.objects if _ADDED in other]:
+        bpy.data.objects.remove(added)
     view = view_of(obj, SIZE[0] / SIZE[1])
 
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera[_ADDED] = True
     toward = Vector(view.target - view.position)
     camera.location = view.position
     camera.rotation_euler = toward.to_track_quat("-Z", "Y").to_euler()
@@ -30,6 +38,7 @@ def add_camera_and_lights(context, obj):
     scene.camera = camera
     for name, direction, share in _LIGHTS:
         light = bpy.data.objects.new(name, bpy.data.lights.new(name, "SUN"))
+        light[_ADDED] = True
         light.data.energy = math.pi * share
         light.data.use_shadow = False
         from_where = -toward if direction is None else Vector(direction)

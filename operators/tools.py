@@ -34,10 +34,7 @@ def _region(shape, mode, key="LEFTMOUSE", value="CLICK_DRAG", **modifiers):
 
 
 _MENU = ("wm.call_menu", {"type": "RIGHTMOUSE", "value": "PRESS"}, {"properties": [("name", "REFLCOLOR_MT_scan")]})
-_LEAVE = (
-    ("reflcolor.drop_color", {"type": "ESC", "value": "PRESS"}, None),
-    ("reflcolor.leave_preview", {"type": "ESC", "value": "PRESS"}, None),
-)
+_LEAVE = ("reflcolor.step_back", {"type": "ESC", "value": "PRESS"}, None)
 
 
 class SeedTool(bpy.types.WorkSpaceTool):
@@ -76,7 +73,7 @@ class SeedTool(bpy.types.WorkSpaceTool):
             {"properties": [("which", "none")]},
         ),
         _MENU,
-        *_LEAVE,
+        _LEAVE,
     )
     draw_settings = staticmethod(draw_settings)
 
@@ -101,7 +98,7 @@ class SeedTool3D(bpy.types.WorkSpaceTool):
             {"properties": [("delete", True)]},
         ),
         ("reflcolor.delete_seeds", {"type": "X", "value": "PRESS"}, None),
-        *_LEAVE,
+        _LEAVE,
     )
     draw_settings = staticmethod(draw_settings)
 

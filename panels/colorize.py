@@ -36,6 +36,9 @@ class Colorize(Step):
         row = layout.row()
         row.scale_y = 1.5
         row.operator("reflcolor.colorize", icon="COLOR")
+        row = layout.row(align=True)
+        row.operator("reflcolor.set_up_render", icon="OUTLINER_OB_CAMERA")
+        row.operator("render.render", text="Render", icon="RENDER_STILL")
         if obj is None:
             layout.label(text="Needs a scan", icon="INFO")
         elif not obj.reflcolor.seeds:

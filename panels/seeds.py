@@ -7,7 +7,9 @@ from .presets import REFLCOLOR_PT_match_presets
 from .step import Step, in_both_editors
 
 # Of the list's width.
-_COLOR_SHARE = 0.2
+_COLOR_SHARE = 0.15
+# In units of the interface: confidence and lock.
+_FACTS_WIDTH = 2.6
 
 
 class REFLCOLOR_UL_seeds(bpy.types.UIList):
@@ -19,13 +21,16 @@ class REFLCOLOR_UL_seeds(bpy.types.UIList):
             split.prop(seed, "color", text="")
         else:
             split.label(text="", icon="QUESTION")
-        row = split.row()
+        row = split.row(align=True)
         row.label(text=f"{index + 1}:  {seed.row}, {seed.col}", translate=False)
+        facts = row.row(align=True)
+        facts.ui_units_x = _FACTS_WIDTH
+        facts.alignment = "RIGHT"
         if seed.reason != "hand":
-            row.label(text=f"{seed.confidence:.0%}", translate=False)
-        if seed.photo:
-            row.label(text="", icon="IMAGE_DATA")
-        row.prop(seed, "locked", text="", icon="LOCKED" if seed.locked else "UNLOCKED", emboss=False)
+            facts.label(text=f"{seed.confidence:.0%}", translate=False)
+        elif seed.photo:
+            facts.label(text="", icon="IMAGE_DATA")
+        facts.prop(seed, "locked", text="", icon="LOCKED" if seed.locked else "UNLOCKED", emboss=False)
 
 
 class Seeds(Step):
