@@ -6,6 +6,7 @@
 # make dist    the zip to hand out: for this platform, with the wheels of every Python that a Blender runs
 # make dist-all  the same for every platform that has the wheels
 # make bench   how fast the engine is, beside others (python -m benchmarks.geodesic); a quarter of an hour
+# make fuzz    random images through the kernel under sanitizers (tools/fuzz_kernel.sh); a few minutes
 # make lint    the style alone;  make format  mends it
 # make clean   removes what was built;  make distclean  the environments, too
 #
@@ -17,7 +18,7 @@ PYTHON ?=
 FOR_PYTHON ?=
 RUN = $(VENV)/bin/python
 
-.PHONY: help setup kernel build dist dist-all demo bench lint format test test-one test-all test-window lock clean distclean
+.PHONY: help setup kernel build dist dist-all demo bench fuzz lint format test test-one test-all test-window lock clean distclean
 
 help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
@@ -45,6 +46,9 @@ demo: build
 
 bench: setup kernel
 	@$(RUN) -m benchmarks.geodesic
+
+fuzz:
+	@tools/fuzz_kernel.sh
 
 lint: setup
 	@$(VENV)/bin/ruff check

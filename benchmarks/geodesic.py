@@ -6,12 +6,9 @@ larger than 4 megapixels.
 """
 
 import argparse
-import json
 import os
 import platform
 import statistics
-import subprocess
-import sys
 import time
 from functools import partial
 from pathlib import Path
@@ -19,32 +16,12 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks import geodesic_cases as cases
+from benchmarks import geodesic_use
+from benchmarks.geodesic_tables import apart, head, medians, row
 from reflcolor_addon import kernel
 from reflcolor_addon.reference import reference_distances
 
 ALPHA = 6.0
-ROOT = Path(__file__).resolve().parent.parent
-
-
-def medians(functions, rounds, clock=time.process_time):
-    """Seconds of each of the named functions: they take turns ``rounds`` times."""
-    seconds = {name: [] for name in functions}
-    for _ in range(rounds):
-        for name, function in functions.items():
-            start = clock()
-            function()
-            seconds[name].append(clock() - start)
-    return {name: statistics.median(values) for name, values in seconds.items()}
-
-
-def row(*cells):
-    print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
-
-
-def head(title, *cells):
-    print(f"\n{title}\n", flush=True)
-    row(*cells)
-    row(*["---"] * len(cells))
 
 
 def one_field(rounds):
@@ -113,44 +90,29 @@ def load():
 
 
 def incremental(rounds):
-    """One seed more, and one seed recolored, where 50 are."""
+    """One seed more where 50 are: its field and its share in the sums."""
     from scipy.sparse.csgraph import dijkstra
 
     head(
         "One seed more where 50 are, 760 x 1135, one thread (milliseconds)",
-        *("image", "scipy field", "field + blend", "ratio", "new sum of 51 held fields"),
+        *("image", "scipy field", "field + blend", "ratio"),
     )
     for name in cases.SCANS:
         images = cases.case(name)
         pixels = cases.spread_seeds(images[2], 51)
         graph, colors = kernel.Graph(*images), cases.seed_colors(pixels)
-        fields = [kernel.field(graph, pixel) for pixel in pixels]
         blend = kernel.Blend(graph.shape, ALPHA)
-        for field, color in zip(fields[:-1], colors[:-1], strict=True):
-            blend.add(field, color)
+        blend.add_all([kernel.field(graph, pixel) for pixel in pixels[:-1]], colors[:-1])
 
         def add(graph=graph, blend=blend, pixels=pixels, colors=colors):
             blend.add(kernel.field(graph, pixels[-1]), colors[-1])
             return blend.mean()
 
-        def sum_anew(graph=graph, fields=fields, colors=colors):
-            fresh = kernel.Blend(graph.shape, ALPHA)
-            for field, color in zip(fields, colors, strict=True):
-                fresh.add(field, color)
-            return fresh.mean()
-
         matrix = cases.pixel_graph(images).matrix
-        functions = {"scipy": partial(dijkstra, matrix, indices=int(pixels[-1])), "add": add, "sum": sum_anew}
+        functions = {"scipy": partial(dijkstra, matrix, indices=int(pixels[-1])), "add": add}
         found = medians(functions, rounds)
         shown = (f"{1e3 * found[key]:.0f}" for key in ("scipy", "add"))
-        row(name, *shown, f"{found['add'] / found['scipy']:.2f}", f"{1e3 * found['sum']:.0f}")
-
-
-def apart(*arguments):
-    """Time and memory of a case of benchmarks/geodesic_memory.py."""
-    command = [sys.executable, "-m", "benchmarks.geodesic_memory", *map(str, arguments)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
+        row(name, *shown, f"{found['add'] / found['scipy']:.2f}")
 
 
 def memory():
@@ -193,11 +155,18 @@ def growth(quick, rounds):
 
 def levin():
     """Levin's optimization against K = 8, the same 400 seeds."""
-    head("400 seeds, doria, 760 x 1135, from images to chrominance", "method", "seconds", "MB", "Levin's / K = 8")
-    ours, theirs = (apart(method, "doria", 760, 1135, 400, 8) for method in ("nearest", "levin"))
+    head("400 seeds, doria, 760 x 1135, from images to chrominance", "method", "seconds", "MB", "to K = 8")
+    runs = [apart("nearest", "doria", 760, 1135, 400, 8) for _ in range(5)]
+    ours = {key: statistics.median(run[key] for run in runs) for key in ("seconds", "bytes")}
     row("K = 8", f"{ours['seconds']:.2f}", f"{ours['bytes'] / 1e6:.0f}", "")
-    ratios = f"{theirs['seconds'] / ours['seconds']:.0f} x time, {theirs['bytes'] / ours['bytes']:.0f} x memory"
-    row("Levin, sparse direct", f"{theirs['seconds']:.1f}", f"{theirs['bytes'] / 1e6:.0f}", ratios)
+    for solver, name in (
+        ("each", "Levin, spsolve for each channel"),
+        ("default", "Levin, spsolve for both at once"),
+        ("symmetric", "Levin, splu with the best order found"),
+    ):
+        theirs = apart(solver, "doria", 760, 1135, 400, 0)
+        ratios = f"{theirs['seconds'] / ours['seconds']:.0f} x time, {theirs['bytes'] / ours['bytes']:.0f} x memory"
+        row(name, f"{theirs['seconds']:.1f}", f"{theirs['bytes'] / 1e6:.0f}", ratios)
 
 
 def bandwidth(rounds):
@@ -231,10 +200,13 @@ def main():
     one_field(rounds)
     threads(min(rounds, 3))
     incremental(rounds)
+    geodesic_use.changes(rounds)
+    geodesic_use.bounds(options.quick)
     memory()
     growth(options.quick, min(rounds, 3))
     bandwidth(rounds)
     if not options.quick:
+        geodesic_use.cancelling()
         levin()
 
 

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from benchmarks import real_scans
+from reflcolor_addon import Scan
 from reflcolor_addon.engines import NativeEngine
 from reflcolor_addon.exact import HeldFields, add_fields
 from reflcolor_addon.graph import PixelGraph
@@ -52,11 +53,36 @@ def pixel_graph(images, neighbors=8):
     return PixelGraph(luminance=luminance, range_image=range_image, valid=valid, neighbors=neighbors)
 
 
-def exact(images, pixels, alpha, threads):
+def whole_scan(name, stride):
+    """A scan of `SCANS`, enlarged to the paper's size and thinned out again; its color is enlarged, too."""
+    import cv2
+
+    small = real_scans.load(name, DATA)
+    luminance, range_image, valid = enlarged(name)
+    height, width = valid.shape
+    azimuth, elevation = np.linspace(-0.7, 0.7, width), np.linspace(0.4, -0.4, height)[:, None]
+    towards = np.cos(elevation) * np.cos(azimuth), -np.cos(elevation) * np.sin(azimuth), np.sin(elevation) + 0 * azimuth
+    thin = np.s_[::stride, ::stride]
+    return Scan(
+        name=name,
+        points=(np.stack(towards, axis=-1) * (1 + range_image[..., None] / 25))[thin],
+        reflectance=luminance[thin],
+        valid=valid[thin],
+        color=cv2.resize(small.color, (width, height), interpolation=cv2.INTER_LINEAR)[thin],
+    )
+
+
+def images_of(scan):
+    """Luminance, range and valid of a scan, as the Colorizer has them by default."""
+    return normalize(scan.reflectance, scan.valid)[0], normalize(scan.range, scan.valid)[0], scan.valid
+
+
+def exact(images, pixels, alpha, threads, colors=None):
     """The mean of all seeds, as the Colorizer takes it."""
     engine = NativeEngine(pixel_graph(images))
     blend = engine.blend(alpha)
-    seeds = list(zip(pixels.tolist(), map(tuple, seed_colors(pixels).tolist()), strict=True))
+    colors = seed_colors(pixels) if colors is None else colors
+    seeds = list(zip(pixels.tolist(), map(tuple, colors.tolist()), strict=True))
     called = {"added": lambda index, field: None, "cancelled": lambda: False}
     add_fields(engine, blend, seeds, threads=threads, held=HeldFields(0), **called)
     return blend.mean()

@@ -2,7 +2,9 @@
 
     python -m benchmarks.geodesic_memory exact IMAGE HEIGHT WIDTH SEEDS THREADS
     python -m benchmarks.geodesic_memory nearest IMAGE HEIGHT WIDTH SEEDS K
-    python -m benchmarks.geodesic_memory levin IMAGE HEIGHT WIDTH SEEDS 0
+    python -m benchmarks.geodesic_memory SOLVER IMAGE HEIGHT WIDTH SEEDS 0
+
+SOLVER is how Levin's system is solved: symmetric, default or each.
 
 Prints JSON: seconds of the processor, valid pixels, all pixels, bytes at the peak beyond what was there before.
 """
@@ -17,6 +19,11 @@ from benchmarks.quality import peers
 from reflcolor_addon import kernel
 
 _ALPHA = 6.0
+SOLVERS = {
+    "symmetric": peers.solve_symmetrically,
+    "default": peers.solve_by_default,
+    "each": peers.solve_each_by_default,
+}
 
 
 def status(field):
@@ -29,8 +36,8 @@ def status(field):
 
 def run(method, images, pixels, number):
     """The work that is measured, from images to means."""
-    if method == "levin":
-        return peers.levin(*cases.as_scan(images, pixels))
+    if method in SOLVERS:
+        return peers.levin(*cases.as_scan(images, pixels), SOLVERS[method])
     if method == "exact":
         return cases.exact(images, pixels, _ALPHA, number)
     return kernel.nearest(kernel.Graph(*images), pixels, number).blend(cases.seed_colors(pixels), _ALPHA)

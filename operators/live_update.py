@@ -63,6 +63,12 @@ def finished(obj, settings):
     return _live.kept
 
 
+def redraw_seeds(obj):
+    """Have the editors drawn that show the object's seeds; those of a large mesh with the preview that will follow."""
+    follows = bpy.context.window_manager.reflcolor.live_update and len(obj.data.vertices) > _QUICK_VERTICES
+    redraw_editors({"IMAGE_EDITOR"} if follows else {"IMAGE_EDITOR", "VIEW_3D"})
+
+
 def switch(on):
     """Begin to follow the seeds, or end it and show again what was there."""
     if on and not bpy.app.timers.is_registered(_tick):

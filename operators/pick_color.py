@@ -5,10 +5,11 @@ from bpy.props import BoolProperty, FloatVectorProperty, StringProperty
 
 from ..reflcolor_addon.errors import SeedsError
 from . import polls
-from .editors import redraw_editors, select_only
+from .editors import select_only
 from .images import read_pixel
+from .live_update import redraw_seeds
 from .load_photo import list_photo
-from .quiet import write_quietly
+from .quiet import point_to, write_quietly
 from .reports import reported
 from .seed_list import FOUND_BY, selected_seeds
 from .texts import NO_COLOR, told
@@ -51,14 +52,15 @@ class REFLCOLOR_OT_pick_color(bpy.types.Operator):
             settings.picked_photo, settings.picked_xy = (None if self.sample_only else image), self.photo_xy
         if not self.sample_only:
             list_photo(context, image)
-        redraw_editors()
+        redraw_seeds(obj)
         return {"FINISHED"}
 
 
 def give_color(seed, color, photo, photo_xy):
     """Color a seed by a person's choice, with the point of the photo that it is from if there is one."""
-    write_quietly(seed, color=tuple(color), photo=photo, photo_xy=tuple(photo_xy), has_color=True)
+    write_quietly(seed, color=tuple(color), photo_xy=tuple(photo_xy), has_color=True)
     write_quietly(seed, reason=FOUND_BY.index("hand"), confidence=1.0)
+    point_to(seed, photo=photo)
 
 
 classes = (REFLCOLOR_OT_pick_color,)

@@ -4,8 +4,9 @@ import bpy
 from bpy.props import BoolProperty
 
 from . import polls
-from .editors import redraw_editors, select_only
-from .quiet import write_quietly
+from .editors import select_only
+from .live_update import redraw_seeds
+from .quiet import point_to, write_quietly
 from .reports import reported
 from .seed_list import SeedPlace, append_seed, snapped_place
 from .texts import told
@@ -32,7 +33,7 @@ class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
         self.check_place(obj)
         row, col = snapped_place(obj, self.row, self.col) if self.snap else (self.row, self.col)
         place_seed(context, obj, row, col)
-        redraw_editors()
+        redraw_seeds(obj)
         if (row, col) != (self.row, self.col):
             self.report({"INFO"}, told("No return there; placed at row {row}, column {col}", row=row, col=col))
         return {"FINISHED"}
@@ -48,7 +49,7 @@ def place_seed(context, obj, row, col):
     append_seed(obj, row, col, settings.picked_color, settings.picked_photo, settings.picked_xy)
     select_only(obj.reflcolor.seeds, [])
     # The point of the photo is that of one place only; the color may be that of many.
-    write_quietly(settings, picked_photo=None)
+    point_to(settings, picked_photo=None)
 
 
 classes = (REFLCOLOR_OT_place_seed,)

@@ -6,13 +6,17 @@ a seed, of which the mesh knows nothing, that would stop the window at every cli
 
 
 def write_quietly(group, **values):
-    """Write values into a property group: numbers, sequences of numbers, data-blocks or None.
+    """Write numbers and sequences of numbers into a property group; a choice is written as its number.
 
-    A choice is written as its number. Neither the object's evaluation nor the properties' own update functions follow.
+    Neither the object's evaluation nor the properties' own update functions follow.
     """
     stored = group.bl_system_properties_get(do_create=True) if hasattr(group, "bl_system_properties_get") else group
     for name, value in values.items():
-        if value is not None:
-            stored[name] = value
-        elif name in stored:
-            del stored[name]
+        stored[name] = value
+
+
+def point_to(group, **blocks):
+    """Let properties of a group point to data-blocks or None, where they do not yet; there is no quiet way for that."""
+    for name, block in blocks.items():
+        if getattr(group, name) != block:
+            setattr(group, name, block)

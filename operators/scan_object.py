@@ -144,6 +144,7 @@ def seed_vertices(obj, rows, cols):
 
 def add_colors(obj, name, rgb):
     """Write (N, 3) uint8 sRGB, one per vertex, as a color attribute of that name; one that is there is replaced."""
+    _check_readable(obj)
     mesh = obj.data
     attribute = mesh.color_attributes.get(name)
     if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "BYTE_COLOR"):
@@ -165,6 +166,7 @@ def colors_of(obj, name):
     ScanError
         If it is there no more, or has other than one color per vertex.
     """
+    _check_readable(obj)
     attribute = obj.data.color_attributes.get(name)
     if attribute is None or attribute.domain != "POINT":
         raise ScanError(
@@ -182,6 +184,7 @@ def add_values(obj, name, values):
 
     Whole numbers are kept as int32, others as float32.
     """
+    _check_readable(obj)
     values = np.asarray(values)
     dtype = np.int32 if values.dtype.kind in "iu" else np.float32
     attribute = obj.data.attributes.get(name)
@@ -202,6 +205,7 @@ def values_of(obj, name, dtype):
     ScanError
         If it is there no more, or holds something else.
     """
+    _check_readable(obj)
     attribute = obj.data.attributes.get(name)
     if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
         raise ScanError(
@@ -256,6 +260,12 @@ def _fill_mesh(mesh, scan, mesh_data, coordinates):
         ("grid_col", "INT", mesh_data.cols),
     ):
         mesh.attributes.new(name, kind, "POINT").data.foreach_set("value", np.ascontiguousarray(values))
+
+
+def _check_readable(obj):
+    """Raise ScanError in Edit Mode, where Blender keeps the mesh elsewhere and shows its attributes as empty."""
+    if obj.data.is_editmode:
+        raise ScanError(f"{obj.name}: leave Edit Mode first")
 
 
 def _material(name):

@@ -7,7 +7,7 @@ from bpy.props import IntProperty
 from ..reflcolor_addon.errors import SeedsError
 from ..reflcolor_addon.seeds import Seeds, nearest_valid
 from .editors import select_only
-from .quiet import write_quietly
+from .quiet import point_to, write_quietly
 from .scan_object import grid_indices
 from .texts import told
 
@@ -70,7 +70,8 @@ def seeds_of(obj, *, wanted=lambda seed: True):
 def append_seed(obj, row, col, rgb, photo=None, photo_xy=(0.0, 0.0)):
     """Add a seed to the object and select it, and no other; ``rgb`` is of 0..1."""
     seed = obj.reflcolor.seeds.add()
-    write_quietly(seed, row=row, col=col, color=tuple(rgb), photo=photo, photo_xy=tuple(photo_xy))
+    write_quietly(seed, row=row, col=col, color=tuple(rgb), photo_xy=tuple(photo_xy))
+    point_to(seed, photo=photo)
     choose_seed(obj, len(obj.reflcolor.seeds) - 1)
     return seed
 
@@ -88,16 +89,17 @@ def append_seeds(obj, seeds):
     for row, col, rgb, xy, confidence, photo, reason in zip(
         *(column.tolist() for column in columns), seeds.photos, seeds.reason, strict=True
     ):
+        seed = listed.add()
         write_quietly(
-            listed.add(),
+            seed,
             row=row,
             col=col,
             color=rgb,
-            photo=bpy.data.images.get(photo) if photo else None,
             photo_xy=xy,
             reason=FOUND_BY.index(reason or "hand"),
             confidence=1.0 if np.isnan(confidence) else confidence,
         )
+        point_to(seed, photo=bpy.data.images.get(photo) if photo else None)
     choose_seed(obj, len(listed) - 1)
 
 

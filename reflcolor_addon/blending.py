@@ -9,7 +9,7 @@ import numpy as np
 from .kernel import Mean
 
 # Of the tables of the seeds' chrominances, as in the kernel, and how many chords find how far a mean can move.
-_BINS, _CHORDS = 256, 4
+_BINS, _CHORDS, _FINE = 256, 3, 0.25
 _RAISED = 1.0001
 
 
@@ -42,6 +42,11 @@ class Blend:
         self._least = least
         self._nearest_seed[nearer] = self._count
         self._count += 1
+
+    def add_all(self, fields, colors, control=None, run=map):
+        """Add several seeds."""
+        for distances, color in zip(fields, colors, strict=True):
+            self.add(distances, color)
 
     def mean(self):
         """Return the Mean of the seeds so far; more can be added afterwards."""
@@ -111,10 +116,17 @@ def _shift(colors, mean, seeds, total, each, side):
     beyond, span = np.interp(mean, edges, table) - listed, colors.max() - mean
     moved = (each > 0) & (beyond > 0) & (span > 0)
     beyond, each = np.where(moved, beyond, 1), np.where(moved, each, 1)
-    t, q = np.where(moved, span, 1), np.zeros(mean.shape)
+    t0, q0, t = np.zeros(mean.shape), beyond, each * beyond / (total + each * beyond / np.where(moved, span, 1))
     for _ in range(_CHORDS):
-        t = each * beyond / (total + each * (beyond - q) / t)
-        q = np.minimum(np.interp(mean + t, edges, table), total * t / each)
+        q = np.minimum(np.minimum(np.interp(mean + t, edges, table), beyond), total * t / each)
+        middle = (t0 + t) / 2
+        q_middle = np.minimum(np.interp(mean + middle, edges, table), beyond)
+        farther = each * q_middle > total * middle
+        t0, q0 = np.where(farther, middle, t0), np.where(farther, q_middle, q0)
+        end, q = np.where(farther, t, middle), np.where(farther, q, q_middle)
+        slope = (q0 - q) / np.where(moved, end - t0, 1)
+        met = each * (q0 + slope * t0) / (total + each * slope)
+        t = np.where(t > _FINE, np.minimum(met, end), t)
     return np.where(moved, t, 0)
 
 

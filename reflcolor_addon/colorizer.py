@@ -32,6 +32,8 @@ _POLL_S = 0.02
 _DEFAULT_MEMORY = 1 << 30
 # Of the progress; the colors are written after both.
 _PROPAGATED, _COLORED = 0.75, 0.95
+# Between two looks at the wish to cancel.
+_PAINTED_PIXELS = 1 << 19
 _KRIGING_BYTES = 100
 """What kriging holds at its worst moment, per pixel."""
 
@@ -111,8 +113,7 @@ class Colorizer:
         unreached = int(np.count_nonzero(self.scan.valid & ~reached))
         if unreached:
             warnings.append(f"{unreached} pixels are cut off from every seed and keep their gray; add seeds there")
-        rgb = colorspaces.merge(self._luminance, chroma, self.settings.color_space)
-        lost = colorspaces.lost_levels(rgb, chroma, self.settings.color_space)
+        rgb, lost = self._paint(chroma, cancelled)
         confidence /= 1 + lost / _HALF_CONFIDENCE_LEVELS
         rgb[~reached] = np.rint(self._luminance[~reached])[:, None]
         progress(1.0, "Colorized")
@@ -197,15 +198,26 @@ class Colorizer:
             self._alpha, done = self.settings.alpha, 0
             self._blend = self._engine.blend(self._alpha)
 
+        held = done + sum(self._fields.get(pixel) is not None for pixel, _ in wanted[done:])
+        ahead, inside = done, np.count_nonzero(self.scan.valid)
+
+        def working(settled=0):
+            nonlocal ahead
+            # Pixels are settled a little more than once: they never tell of more than the threads are at.
+            most = min(len(self._blended) + self.threads, len(wanted))
+            ahead = max(ahead, len(self._blended), min(held + settled / inside, most))
+            progress(ahead / len(wanted), f"Seed {len(self._blended)} of {len(wanted)}")
+
         def added(index, field):
             self._blended.append(wanted[done + index])
             if near is not None:
                 near[0][:, done + index] = field[np.unravel_index(pixels, self.scan.shape)]
-            progress(len(self._blended) / len(wanted), f"Seed {len(self._blended)} of {len(wanted)}")
+            working()
 
-        arguments = {"threads": self.threads, "held": self._fields, "added": added, "cancelled": cancelled}
+        how = {"threads": self.threads, "held": self._fields}
+        told = {"added": added, "working": working, "cancelled": cancelled}
         try:
-            add_fields(self._engine, self._blend, wanted[done:], **arguments)
+            add_fields(self._engine, self._blend, wanted[done:], **how, **told)
         except BaseException:
             self._forget_sums()
             raise
@@ -225,6 +237,18 @@ class Colorizer:
             except BaseException:
                 control.cancel()
                 raise
+
+    def _paint(self, chroma, cancelled):
+        """Return the (H, W, 3) uint8 colors and the (H, W) float32 levels of chrominance that they lack."""
+        rgb, lost = np.empty((*self.scan.shape, 3), np.uint8), np.empty(self.scan.shape, np.float32)
+        rows = max(1, _PAINTED_PIXELS // rgb.shape[1])
+        for top in range(0, len(rgb), rows):
+            if cancelled():
+                raise Cancelled
+            strip = slice(top, top + rows)
+            rgb[strip] = colorspaces.merge(self._luminance[strip], chroma[strip], self.settings.color_space)
+            lost[strip] = colorspaces.lost_levels(rgb[strip], chroma[strip], self.settings.color_space)
+        return rgb, lost
 
     def _krige(self, pixels, chrominance, path_residuals, progress, cancelled):
         """Return the (2, H, W) float32 chrominance estimated by kriging, 0 where not valid, and its share."""

@@ -84,7 +84,8 @@ _SPACES = {
     "lalphabeta": _LAlphaBeta(),
     "cielab": _CieLab(),
 }
-_CHUNK_PIXELS = 1 << 19
+# Few enough that what is at work on them stays in the cache.
+_CHUNK_PIXELS = 1 << 15
 
 
 def chrominance(rgb, color_space):

@@ -1,7 +1,8 @@
 """Equation 1 over all seeds: fields computed by several threads, summed in the order of the seeds."""
 
-from collections import OrderedDict, deque
+from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor, wait
+from itertools import islice
 
 from .errors import Cancelled
 
@@ -41,7 +42,7 @@ class HeldFields:
         self.nbytes = 0
 
 
-def add_fields(engine, blend, seeds, *, threads, held, added, cancelled):
+def add_fields(engine, blend, seeds, *, threads, held, added, cancelled, working=lambda pixels: None):
     """Add seeds to the sums of eq. 1, in their order, whatever the number of threads.
 
     A few fields are computed ahead, one in every thread; those that are held are not computed.
@@ -59,6 +60,8 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled):
         Called as ``added(index, field)`` when a seed was added.
     cancelled : callable
         Asked now and then; when it returns True, the work ends.
+    working : callable, optional
+        Called now and then with the number of pixels settled in all fields so far; the scipy engine counts none.
 
     Raises
     ------
@@ -67,24 +70,43 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled):
     """
     control = engine.control()
 
-    def field_of(pixel):
-        field = held.get(pixel)
-        return engine.field(pixel, control) if field is None else field
+    def tell():
+        working(control.done)
 
-    # One thread more for the sums: this one is to ask whether it should go on.
+    # One thread more: this one is to ask whether it should go on.
     with ThreadPoolExecutor(threads + 1, "reflcolor") as pool:
-        ahead = deque()
+        ahead, index = {}, 0
         try:
-            for index, (pixel, color) in enumerate(seeds):
-                while len(ahead) < threads and index + len(ahead) < len(seeds):
-                    ahead.append(pool.submit(field_of, seeds[index + len(ahead)][0]))
-                field = awaited(ahead.popleft(), control, lambda: None, cancelled)
-                awaited(pool.submit(blend.add, field, color, control), control, lambda: None, cancelled)
-                held.hold(pixel, field)
-                added(index, field)
+            while index < len(seeds):
+                # Held fields take no further memory, however many are added at once.
+                end = index
+                fields = []
+                while end < len(seeds) and end not in ahead and (field := held.get(seeds[end][0])) is not None:
+                    fields.append(field)
+                    end += 1
+                for other in _missing(seeds, end, held, threads):
+                    if other not in ahead:
+                        ahead[other] = pool.submit(engine.field, seeds[other][0], control)
+                if not fields:
+                    fields.append(awaited(ahead.pop(index), control, tell, cancelled))
+                    end = index + 1
+                colors = [color for _, color in seeds[index:end]]
+                run = pool.map if len(fields) > 1 else map
+                summed = pool.submit(blend.add_all, fields, colors, control, run)
+                awaited(summed, control, tell, cancelled)
+                for field in fields:
+                    held.hold(seeds[index][0], field)
+                    added(index, field)
+                    index += 1
         except BaseException:
             control.cancel()
             raise
+
+
+def _missing(seeds, first, held, count):
+    """Indices of the next seeds, up to ``count``, whose fields are not held."""
+    found = (index for index in range(first, len(seeds)) if held.get(seeds[index][0]) is None)
+    return list(islice(found, count))
 
 
 def awaited(later, control, tell, cancelled):

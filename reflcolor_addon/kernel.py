@@ -54,8 +54,8 @@ MAX_NEAREST = 1024
 
 # Windows has no other anonymous memory; elsewhere, shared is the default and costs more.
 _PRIVATE = {"flags": mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS} if hasattr(mmap, "MAP_PRIVATE") else {}
-# Blended between two looks at the wish to cancel.
-_PIXELS_AT_ONCE = 1 << 17
+# Blended at once: few enough for the sums to stay in the cache, and between two looks at the wish to cancel.
+_PIXELS_AT_ONCE = 1 << 15
 
 
 class Graph:
@@ -317,16 +317,29 @@ class Blend:
         Its index is the number of seeds added so far. The order of adding decides the last bits of the sums. After
         a cancellation they are of no more use.
         """
-        seed, self._count = self._count, self._count + 1
-        distances = _rows(np.asarray(distances, np.float32))
-        color = [float(value) for value in color]
-        mean = self._mean
-        if distances.shape != mean.weight.shape:
-            raise ReflcolorError(f"distances of shape {distances.shape} do not fit an image {mean.weight.shape}")
-        stride = max(distances.strides[0] // 4, distances.shape[1])
-        sums = (mean.least, mean.nearest_seed, mean.weight, *mean.chroma)
-        arguments = *distances.shape, address(distances), stride, self._alpha, seed, *color
-        check(library().rc_blend_add(*arguments, *map(address, sums), pointer_to(control)))
+        self.add_all([distances], [color], control)
+
+    def add_all(self, fields, colors, control=None, run=map):
+        """Add several seeds; ``run`` is `map` or a pool's, which lets threads work on parts of the image."""
+        first, self._count = self._count, self._count + len(fields)
+        fields = [_rows(np.asarray(distances, np.float32)) for distances in fields]
+        height, width = self._mean.weight.shape
+        for distances in fields:
+            if distances.shape != (height, width):
+                raise ReflcolorError(f"distances of shape {distances.shape} do not fit an image {height} x {width}")
+        sums = (self._mean.least, self._mean.nearest_seed, self._mean.weight, *self._mean.chroma)
+        rows = max(1, _PIXELS_AT_ONCE // width)
+
+        def add_to(strip):
+            parts = [address(each[strip]) for each in sums]
+            for seed, (distances, color) in enumerate(zip(fields, colors, strict=True), first):
+                part = distances[strip]
+                stride = max(part.strides[0] // 4, width)
+                arguments = len(part), width, address(part), stride, self._alpha, seed, *map(float, color)
+                check(library().rc_blend_add(*arguments, *parts, pointer_to(control)))
+
+        for _ in run(add_to, [slice(top, min(top + rows, height)) for top in range(0, height, rows)]):
+            pass
 
     def mean(self):
         """Return the `Mean` of the seeds so far; more can be added afterwards."""

@@ -112,6 +112,14 @@ def test_a_mesh_that_lost_its_grid_says_so(seeded):
     assert "Colorized" not in obj.data.color_attributes
 
 
+@pytest.mark.parametrize("act", ["colorize", "evaluate"])
+def test_in_edit_mode_the_operator_says_to_leave_it(seeded, act):
+    seeded.ops.reflcolor.colorize()
+    seeded.ops.object.mode_set(mode="EDIT")
+    with pytest.raises(RuntimeError, match="leave Edit Mode first"):
+        getattr(seeded.ops.reflcolor, act)()
+
+
 def test_deleted_vertices_keep_their_neighbors_colors_in_place(seeded, scan_file):
     import bmesh
 

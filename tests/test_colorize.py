@@ -341,6 +341,19 @@ def test_a_change_of_one_seed_computes_one_field_at_most(monkeypatch):
     assert fields_for([1, 3, 4], [4, 6, 7], [*colors[:2], [50, 5, 5]]) == 0
 
 
+def test_a_cancelled_change_leaves_nothing_of_it_behind():
+    scan = random_scan(shape=(20, 30))
+    rng = np.random.default_rng(0)
+    rows, cols, colors = rng.integers(0, 20, 12), rng.integers(0, 30, 12), rng.integers(0, 256, (12, 3))
+    colorizer = Colorizer(scan)
+    colorizer.colorize(Seeds(rows[:9], cols[:9], colors[:9]))
+    asked = itertools.count()
+    with pytest.raises(Cancelled):
+        colorizer.colorize(Seeds(rows, cols, colors), cancelled=lambda: next(asked) > 2)
+    seeds = Seeds(rows[1:], cols[1:], colors[1:])
+    assert colorizer.colorize(seeds).rgb.tobytes() == colorize(scan, seeds).rgb.tobytes()
+
+
 def test_fields_are_held_within_the_limit_and_the_oldest_goes_first():
     scan = random_scan(shape=(20, 30))
     rows, cols = np.arange(10), np.arange(10)

@@ -13,6 +13,7 @@ from pathlib import Path
 from benchmarks.experiments import cases, meshes, pictures, tables
 from reflcolor_addon import Seeds, Settings, colorize
 from reflcolor_addon.image_files import read_image
+from reflcolor_addon.matching import match_site
 from reflcolor_addon.settings import PRESETS
 
 
@@ -21,8 +22,13 @@ def picked_by_hand(group):
     return [Seeds.load(case.seeds, case.photos) for case in group]
 
 
+def found_by_program(group):
+    """Method 2, verified."""
+    return [found.seeds for found in match_site([case.scan for case in group], group[0].photos)]
+
+
 # Each gives the seeds of all scans that are colorized from the same photos.
-METHODS = {"Method 1": picked_by_hand}
+METHODS = {"Method 1": picked_by_hand, "Method 2": found_by_program}
 SETTINGS = {"Yatziv": Settings(beta=0)} | {name: Settings.preset(name) for name in PRESETS}
 WIDTH = 1200
 # Where the whole house is looked at from: place, target, field of view.

@@ -43,7 +43,7 @@ class Case:
 
 def load(folder):
     """Return all cases in order; scenes that are not in the folder yet are simulated there."""
-    room, house = _simulated(folder / "person_room"), _simulated(folder / "brick_house")
+    room, house = simulated(folder / "person_room"), simulated(folder / "brick_house")
     cones = EXAMPLES / "cones"
     cases = [
         _case("scene 1", "", cones, "cones", "cones", "truth", ("photo.jpg",)),
@@ -71,12 +71,12 @@ def _case(scene, variant, folder, scan, seeds, truth, photos):
     )
 
 
-def _simulated(folder):
-    """The folder, in which the example of its name has written its files; done before, nothing is done."""
+def simulated(folder, script="make.py"):
+    """Return the folder, in which the example of its name has written its files; done before, nothing is done."""
     finished = folder / "finished"
     if not finished.is_file():
         print(f"simulating {folder.name}, a few minutes", flush=True)
-        script = EXAMPLES / folder.name / "make.py"
-        subprocess.run([sys.executable, str(script), str(folder)], check=True, stdout=subprocess.DEVNULL)
+        path = EXAMPLES / folder.name / script
+        subprocess.run([sys.executable, str(path), str(folder)], check=True, stdout=subprocess.DEVNULL)
         finished.touch()
     return folder

@@ -56,14 +56,33 @@ def guided_filter(scan, seeds):
     return result
 
 
-def levin(scan, seeds):
-    """Colorization using optimization (Levin, Lischinski and Weiss 2004), solved directly.
+def solve_by_default(matrix, known):
+    """Solve a sparse system with scipy's default order of the columns (COLAMD)."""
+    from scipy.sparse.linalg import spsolve
+
+    return spsolve(matrix, known)
+
+
+def solve_each_by_default(matrix, known):
+    """The same, each channel by a call of its own, as is commonly written: the matrix is factorized twice."""
+    return np.column_stack([solve_by_default(matrix, channel) for channel in known.T])
+
+
+def solve_symmetrically(matrix, known):
+    """Solve a sparse system whose pattern is symmetric, which keeps the factors small: minimum degree of A^T + A."""
+    from scipy.sparse.linalg import splu
+
+    options = {"permc_spec": "MMD_AT_PLUS_A", "options": {"SymmetricMode": True}, "diag_pivot_thresh": 0.0}
+    return splu(matrix, **options).solve(known)
+
+
+def levin(scan, seeds, solve=solve_symmetrically):
+    """Colorization using optimization (Levin, Lischinski and Weiss 2004), by a sparse direct solver.
 
     Every pixel without a seed is the weighted mean of its 8 neighbors, with weights exp(-(Y_p - Y_q)^2 / 2 var) of the
     variance in the 3 x 3 window, bounded below as in the authors' program.
     """
     from scipy.sparse import csc_array
-    from scipy.sparse.linalg import splu
 
     height, width = scan.shape
     guide = normalize(scan.reflectance, scan.valid)[0].astype(np.float64) / 255
@@ -90,9 +109,7 @@ def levin(scan, seeds):
     matrix = csc_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(cols))), (index.size, index.size))
     known = np.zeros((height * width, 2))
     known[index[seeds.rows, seeds.cols]] = _colors(seeds)
-    # The pattern is symmetric, which keeps the factors small.
-    solver = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}, diag_pivot_thresh=0.0)
-    return solver.solve(known).reshape(height, width, 2)
+    return solve(matrix, known).reshape(height, width, 2)
 
 
 def _colors(seeds):

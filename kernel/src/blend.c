@@ -1,17 +1,64 @@
 /* The weighted mean of equation 1 with the weights of equation 2, w = r^-alpha, relative to the least distance. */
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "check.h"
 #include "control.h"
+#include "lanes.h"
 #include "power.h"
 
-/* Of the tables of the seeds' chrominances. */
-#define RC_BINS 256
-/* Against rounding in their sums. */
-#define RC_RAISED 1.0001f
-/* Chords drawn to find how far a mean can move; more would change little. */
-#define RC_CHORDS 4
+typedef struct {
+    float *nearest, *weight, *color0, *color1;
+    int32_t *index;
+} add_to;
+
+/* Four pixels' sums, in place. What lies farther than the nearest seed, this one or the sums so far, is scaled down by
+ * `relative`, or to nothing where that is infinitely far. */
+static inline void add_four(add_to to, const float *field, const float *relative, int32_t seed, float seed_color0,
+                            float seed_color1)
+{
+    const lanes r = lanes_load(field), least = lanes_load(to.nearest), one = lanes_all(1.0f);
+    const lanes most = lanes_choose(least, r, r, least);
+    const lanes far = lanes_choose(most, lanes_all(FLT_MAX), lanes_load(relative), lanes_all(0.0f));
+    const lanes kept = lanes_choose(least, r, one, far), own = lanes_choose(least, r, far, one);
+    const lanes own0 = lanes_mul(own, lanes_all(seed_color0)), own1 = lanes_mul(own, lanes_all(seed_color1));
+    lanes_store(to.weight, lanes_add(lanes_mul(lanes_load(to.weight), kept), own));
+    lanes_store(to.color0, lanes_add(lanes_mul(lanes_load(to.color0), kept), own0));
+    lanes_store(to.color1, lanes_add(lanes_mul(lanes_load(to.color1), kept), own1));
+    lanes_store_int(to.index, lanes_choose(least, r, lanes_load_int(to.index), lanes_all_int(seed)));
+    lanes_store(to.nearest, lanes_choose(least, r, least, r));
+}
+
+static inline void add_run(add_to to, const float *field, const float *relative, int32_t count, int32_t seed,
+                           float seed_color0, float seed_color1)
+{
+    int32_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+        const add_to four = {to.nearest + i, to.weight + i, to.color0 + i, to.color1 + i, to.index + i};
+        add_four(four, field + i, relative + i, seed, seed_color0, seed_color1);
+    }
+    if (i < count) {
+        const size_t rest = (size_t)(count - i) * sizeof(float);
+        float part[6][4] = {{0.0f}};
+        int32_t index[4] = {0};
+        const add_to copy = {part[0], part[1], part[2], part[3], index};
+        memcpy(part[0], to.nearest + i, rest);
+        memcpy(part[1], to.weight + i, rest);
+        memcpy(part[2], to.color0 + i, rest);
+        memcpy(part[3], to.color1 + i, rest);
+        memcpy(part[4], field + i, rest);
+        memcpy(part[5], relative + i, rest);
+        memcpy(index, to.index + i, rest);
+        add_four(copy, part[4], part[5], seed, seed_color0, seed_color1);
+        memcpy(to.nearest + i, part[0], rest);
+        memcpy(to.weight + i, part[1], rest);
+        memcpy(to.color0 + i, part[2], rest);
+        memcpy(to.color1 + i, part[3], rest);
+        memcpy(to.index + i, index, rest);
+    }
+}
 
 int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t field_stride, float alpha,
                      int32_t seed, float seed_color0, float seed_color1, float *nearest, int32_t *index,
@@ -31,8 +78,8 @@ int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t 
         if (control && rc_cancelled(control)) {
             return RC_CANCELLED;
         }
-        const float *const f = field + row * field_stride;
         const int64_t at = row * width;
+        const float *const f = field + row * field_stride;
         float *const n = nearest + at, *const w = weight + at, *const c0 = color0 + at, *const c1 = color1 + at;
         int32_t *const id = index + at;
         for (int64_t c = 0; c < width; c += RC_RUN) {
@@ -45,17 +92,8 @@ int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t 
                 relative[i] = low == high ? 1.0f : low / high;
             }
             rc_power_apply(power, relative, m);
-            for (int32_t i = 0; i < m; i++) {
-                const float r = f[c + i], least = n[c + i];
-                const int nearer = r < least;
-                const float far = (nearer ? least : r) < INFINITY ? relative[i] : 0.0f;
-                const float kept = nearer ? far : 1.0f, own = nearer ? 1.0f : far;
-                w[c + i] = w[c + i] * kept + own;
-                c0[c + i] = c0[c + i] * kept + own * seed_color0;
-                c1[c + i] = c1[c + i] * kept + own * seed_color1;
-                id[c + i] = nearer || (r == least && r < INFINITY && seed < id[c + i]) ? seed : id[c + i];
-                n[c + i] = nearer ? r : least;
-            }
+            const add_to to = {n + c, w + c, c0 + c, c1 + c, id + c};
+            add_run(to, f + c, relative, m, seed, seed_color0, seed_color1);
         }
     }
     return RC_OK;
@@ -73,156 +111,6 @@ int32_t rc_blend_finish(int64_t count, const float *weight, float *color0, float
         const float w = weight[i] > 0.0f ? weight[i] : 1.0f;
         color0[i] /= w;
         color1[i] /= w;
-    }
-    return RC_OK;
-}
-
-/* One chrominance of all seeds. At the edges of its bins a table holds the sum, over all seeds, of how far each lies
- * above, and one of how far it lies below; between edges the chord does not understate it, for such a sum is convex. */
-typedef struct {
-    float low, high, bins_per_unit;
-    float above[RC_BINS + 1], below[RC_BINS + 1];
-} rc_spread;
-
-static int32_t spread_of(int64_t count, const float *colors, rc_spread *s)
-{
-    s->low = INFINITY;
-    s->high = -INFINITY;
-    for (int64_t j = 0; j < count; j++) {
-        if (!isfinite(colors[2 * j])) {
-            return RC_BAD_VALUE;
-        }
-        s->low = colors[2 * j] < s->low ? colors[2 * j] : s->low;
-        s->high = colors[2 * j] > s->high ? colors[2 * j] : s->high;
-    }
-    double number[RC_BINS] = {0}, sum[RC_BINS] = {0};
-    const double width = ((double)s->high - (double)s->low) / RC_BINS;
-    s->bins_per_unit = width > 0.0 ? (float)(1.0 / width) : 0.0f;
-    for (int64_t j = 0; j < count; j++) {
-        const double from_low = (double)colors[2 * j] - (double)s->low;
-        const int32_t bin = width > 0.0 ? (int32_t)(from_low / width) : 0;
-        number[bin < RC_BINS ? bin : RC_BINS - 1]++;
-        sum[bin < RC_BINS ? bin : RC_BINS - 1] += from_low;
-    }
-    double n = 0.0, total = 0.0;
-    s->above[RC_BINS] = 0.0f;
-    for (int32_t b = RC_BINS - 1; b >= 0; b--) {
-        n += number[b];
-        total += sum[b];
-        s->above[b] = (float)(total - n * width * b) * RC_RAISED;
-    }
-    n = total = 0.0;
-    s->below[0] = 0.0f;
-    for (int32_t b = 1; b <= RC_BINS; b++) {
-        n += number[b - 1];
-        total += sum[b - 1];
-        s->below[b] = (float)(n * width * b - total) * RC_RAISED;
-    }
-    return RC_OK;
-}
-
-static float chord(const float *table, float x)
-{
-    x = x < 0.0f ? 0.0f : x > RC_BINS ? RC_BINS : x;
-    const int32_t bin = x < RC_BINS ? (int32_t)x : RC_BINS - 1;
-    return table[bin] + (x - (float)bin) * (table[bin + 1] - table[bin]);
-}
-
-/* The most by which a mean of weight w can move to one side when every seed left out gets a weight from 0 to `each`.
- * All seeds beyond a place t units off push together with each * q(t), where q(t) is how far they lie beyond it; the
- * mean stops where w * t outweighs that. q is convex, is `beyond` at 0, and 0 at `span`: where the chord between two
- * known places meets w * t / each is no nearer than where q does, and becomes the next known place. */
-static float shift(const float *table, float x, float per_unit, float beyond, float span, float each, float w)
-{
-    if (!(beyond > 0.0f) || !(span > 0.0f)) {
-        return 0.0f;
-    }
-    float t = span, q = 0.0f;
-    for (int n = 0; n < RC_CHORDS; n++) {
-        t = each * beyond / (w + each * (beyond - q) / t);
-        const float listed = chord(table, x + per_unit * t), least = w * t / each;
-        q = listed < least ? listed : least;
-    }
-    return t;
-}
-
-/* The most that the seeds left out can move one chrominance of a pixel whose k nearest seeds are `id`. */
-static float bound_of(const rc_spread *s, float mean, int32_t k, const int32_t *id, const float *colors, float each,
-                      float w)
-{
-    const float x = (mean - s->low) * s->bins_per_unit;
-    float above = chord(s->above, x), below = chord(s->below, x);
-    for (int32_t i = 0; i < k; i++) {
-        const float off = colors[2 * id[i]] - mean;
-        above -= off > 0.0f ? off : 0.0f;
-        below += off < 0.0f ? off : 0.0f;
-    }
-    const float up = shift(s->above, x, s->bins_per_unit, above, s->high - mean, each, w);
-    const float down = shift(s->below, x, -s->bins_per_unit, below, mean - s->low, each, w);
-    return up > down ? up : down;
-}
-
-int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
-                         int64_t count, const float *colors, float alpha, float *nearest, int32_t *index,
-                         float *weight, float *color0, float *color1, float *bound)
-{
-    int32_t code = rc_check_graph(graph);
-    if (code != RC_OK) {
-        return code;
-    }
-    if (!labels || !colors || !nearest || !index || !weight || !color0 || !color1) {
-        return RC_BAD_POINTER;
-    }
-    if (row0 < 0 || row1 < row0 || row1 > graph->height || count < 1 || count > INT32_MAX) {
-        return RC_BAD_SIZE;
-    }
-    if (!(alpha >= 0.0f) || !isfinite(alpha) || k < 1 || k > RC_MAX_NEAREST) {
-        return RC_BAD_VALUE;
-    }
-    rc_spread spread[2];
-    for (int channel = 0; channel < 2; channel++) {
-        code = spread_of(count, colors + channel, spread + channel);
-        if (code != RC_OK) {
-            return code;
-        }
-    }
-    const rc_power power = rc_power_of(alpha);
-    const int64_t width = graph->width;
-    for (int64_t row = row0; row < row1; row++) {
-        for (int64_t c = 0; c < width; c++) {
-            const int64_t p = (row + 1) * (width + 2) + c + 1, out = row * width + c;
-            const float *const r = (const float *)labels + p * 2 * k;
-            const int32_t *const id = (const int32_t *)labels + p * 2 * k + k;
-            float relative[RC_MAX_NEAREST], w = 0.0f, c0 = 0.0f, c1 = 0.0f;
-            int32_t n = 0;
-            const int32_t places = isnan(graph->y[p]) ? 0 : k;
-            for (; n < places && id[n] >= 0; n++) {
-                if (id[n] >= count) {
-                    return RC_BAD_SEED;
-                }
-                relative[n] = r[n] == r[0] ? 1.0f : r[0] / r[n];
-            }
-            rc_power_apply(power, relative, n);
-            for (int32_t i = 0; i < n; i++) {
-                w += relative[i];
-                c0 += relative[i] * colors[2 * id[i]];
-                c1 += relative[i] * colors[2 * id[i] + 1];
-            }
-            nearest[out] = n ? r[0] : INFINITY;
-            index[out] = n ? id[0] : -1;
-            weight[out] = w;
-            color0[out] = n ? c0 / w : 0.0f;
-            color1[out] = n ? c1 / w : 0.0f;
-            if (bound) {
-                bound[out] = 0.0f;
-                if (n == k && count > k && relative[k - 1] > 0.0f) {
-                    /* Each seed left out lies at least as far as the last one kept. */
-                    const float bound0 = bound_of(spread, color0[out], k, id, colors, relative[k - 1], w);
-                    const float bound1 = bound_of(spread + 1, color1[out], k, id, colors + 1, relative[k - 1], w);
-                    bound[out] = bound0 > bound1 ? bound0 : bound1;
-                }
-            }
-        }
     }
     return RC_OK;
 }

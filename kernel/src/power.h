@@ -93,13 +93,20 @@ static inline void rc_power_apply(rc_power p, float *x, int32_t n)
             x[i] = square * square * square;
         }
     } else if (p.whole >= 0) {
-        for (int32_t i = 0; i < n; i++) {
-            float base = x[i], result = 1.0f;
-            for (int32_t e = p.whole; e; e >>= 1) {
-                result = e & 1 ? result * base : result;
-                base *= base;
+        /* Bit after bit of the exponent for a run of values, not value after value: the compiler vectorizes that. */
+        for (int32_t from = 0; from < n; from += RC_RUN) {
+            const int32_t m = n - from < RC_RUN ? n - from : RC_RUN;
+            float *const base = x + from, result[RC_RUN];
+            for (int32_t i = 0; i < m; i++) {
+                result[i] = 1.0f;
             }
-            x[i] = result;
+            for (int32_t e = p.whole; e; e >>= 1) {
+                for (int32_t i = 0; i < m; i++) {
+                    result[i] = e & 1 ? result[i] * base[i] : result[i];
+                    base[i] *= base[i];
+                }
+            }
+            memcpy(base, result, (size_t)m * sizeof *result);
         }
     } else {
         for (int32_t i = 0; i < n; i++) {

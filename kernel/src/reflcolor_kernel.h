@@ -76,8 +76,8 @@ RC_API int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *p
 
 /* Equation 1, one seed at a time, for a seed that lies `field` away (rows of field_stride floats). The sums are kept
  * relative to the nearest seed so far: weight = sum (r / nearest)^-alpha, color0 and color1 the same with the seed's
- * chrominance. Start: nearest = infinity, index = -1, the rest 0. Add seeds in the same order for the same bits. A
- * cancelled call leaves some pixels with the seed and some without. */
+ * chrominance. Start: nearest = infinity, index = -1, the rest 0. Add seeds in the same order for the same bits; of
+ * equally near ones the first gives the index. A cancelled call leaves some pixels with the seed and some without. */
 RC_API int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t field_stride, float alpha,
                             int32_t seed, float seed_color0, float seed_color1, float *nearest, int32_t *index,
                             float *weight, float *color0, float *color1, const rc_control *control);

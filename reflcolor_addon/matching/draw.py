@@ -40,7 +40,7 @@ def draw_matches(scan, photos, seeds):
 
     opened = opened_photos(photos)
     own = _shown(scan)
-    panels = [own, *(sized(photo.rgb, max(photo.rgb.shape[:2]) * _HEIGHT / photo.height) for photo in opened)]
+    panels = [own, *(sized(photo.rgb, max(photo.width, photo.height) * _HEIGHT / photo.height) for photo in opened)]
     canvas = np.full((_HEIGHT, sum(p.shape[1] + _GAP for p in panels) - _GAP, 3), 24, np.uint8)
     lefts, left = [], 0
     for panel in panels:

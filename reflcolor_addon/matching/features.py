@@ -5,7 +5,7 @@ import numpy as np
 from .models import GridHomography
 
 _RATIO = 0.9
-_SIDE = 900
+_SIDE = 720
 _LEAST_MATCHES = 12
 _MOST_POINTS = 3000
 VARIANTS = ("gradient", "gray", "contrast", "inverted")

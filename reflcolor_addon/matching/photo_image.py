@@ -7,6 +7,7 @@ import numpy as np
 from .edges import edge_features, filled
 
 _LARGEST_SIDE = 2048
+_LARGEST_COLOR_SIDE = 6000
 
 
 class PhotoImage:
@@ -17,12 +18,25 @@ class PhotoImage:
     name : str
     rgb : (H, W, 3) uint8
         sRGB.
+
+    Attributes
+    ----------
+    height, width : int
+        Of the photo as given: its places are counted in these pixels.
+    rgb : (h, w, 3) uint8
+        The photo, or where a side is longer than 6000 pixels what is left of it at that size.
     """
 
     def __init__(self, name, rgb):
+        import cv2
+
         self.name = name
-        self.rgb = rgb
         self.height, self.width = rgb.shape[:2]
+        scale = max(self.width, self.height) / _LARGEST_COLOR_SIDE
+        if scale > 1:
+            size = (max(1, round(self.width / scale)), max(1, round(self.height / scale)))
+            rgb = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
+        self.rgb = rgb
 
     @cached_property
     def levels(self):
@@ -84,23 +98,43 @@ def visible(model, image, xy, depth, tolerance=0.04):
     tolerance : float
         What lies farther than the nearest in the same place by more than this share is hidden.
     """
-    import cv2
-
     inside = image.valid & np.isfinite(xy).all(axis=-1) & (depth > 0)
     inside &= (xy >= 0).all(axis=-1) & (np.nan_to_num(xy) <= [model.width, model.height]).all(axis=-1)
     if model.kind == "homography" or not inside.any():
         return inside
+    nearest, place = depth_buffer(model, xy, depth, inside)
+    seen = inside.copy()
+    seen[inside] = depth[inside] <= nearest[place] * (1 + tolerance)
+    return seen
+
+
+def depth_buffer(model, xy, depth, inside):
+    """Return the depth of the nearest surface in each cell of a photo, very large where there is none, and the cells.
+
+    Parameters
+    ----------
+    model : Camera
+    xy, depth : (h, w, 2), (h, w)
+        As ``model.project`` gave them for the pixels of a scan.
+    inside : (h, w) bool
+        Which of them to take, N of them.
+
+    Returns
+    -------
+    nearest : (rows, columns) float64
+    place : tuple of two (N,) int
+        Row and column of the cell of each.
+    """
+    import cv2
+
     cell = max(1.3 * spacing(xy, inside), max(model.width, model.height) / 2000)
     columns, rows = int(model.width / cell) + 2, int(model.height / cell) + 2
-    place = (xy[inside] / cell).astype(int)
+    column, row = (xy[inside] / cell).astype(int).T
     nearest = np.full((rows, columns), np.inf)
-    np.minimum.at(nearest, (place[:, 1], place[:, 0]), depth[inside])
+    np.minimum.at(nearest, (row, column), depth[inside])
     # Between its points, too, a surface hides what is behind; closing fills the gaps and leaves the outlines.
     window = np.ones((5, 5))
-    nearest = cv2.dilate(cv2.erode(np.minimum(nearest, 1e9), window), window)
-    seen = inside.copy()
-    seen[inside] = depth[inside] <= nearest[place[:, 1], place[:, 0]] * (1 + tolerance)
-    return seen
+    return cv2.dilate(cv2.erode(np.minimum(nearest, 1e9), window), window), (row, column)
 
 
 def spacing(xy, seen):

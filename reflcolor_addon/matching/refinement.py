@@ -81,14 +81,45 @@ class Surfaces:
         return self.scores.shape[1] // 2
 
 
-def surfaces(scan_image, tiles, photo, model, radius):
-    """Return the `Surfaces` of a model, or None where the photo shows too little of the scan."""
-    sites = model.sites(scan_image)
-    xy, depth = model.project(sites)
-    seen = visible(model, scan_image, xy, depth)
-    if np.count_nonzero(seen) < 64 or len(tiles.corners) < _LEAST_TILES:
+@dataclass(frozen=True, eq=False)
+class Sighting:
+    """What a photo shows of a `ScanImage` under a model: its features there (h, w, 5), where it is seen, the sites."""
+
+    features: np.ndarray
+    seen: np.ndarray
+    sites: np.ndarray
+
+    @classmethod
+    def of(cls, scan_image, photo, model):
+        """Look; None where the photo shows too little of the scan."""
+        sites = model.sites(scan_image)
+        xy, depth = model.project(sites)
+        seen = visible(model, scan_image, xy, depth)
+        if np.count_nonzero(seen) < 64:
+            return None
+        features, seen = photo.features(xy, seen, spacing(xy, seen))
+        return cls(features, seen, sites)
+
+
+def surfaces(scan_image, tiles, photo, model, radius, sighting=None):
+    """Return the `Surfaces` of a model, or None where the photo shows too little of the scan.
+
+    Parameters
+    ----------
+    scan_image : ScanImage
+    tiles : Tiles
+        Of that image.
+    photo : PhotoImage
+    model : Camera or GridHomography
+    radius : int
+        Pixels of the scan's image that a tile is sought in.
+    sighting : Sighting, optional
+        Where it is known already.
+    """
+    sighting = sighting or Sighting.of(scan_image, photo, model)
+    if sighting is None or len(tiles.corners) < _LEAST_TILES:
         return None
-    features, seen = photo.features(xy, seen, spacing(xy, seen))
+    features, seen, sites = sighting.features, sighting.seen, sighting.sites
     shares = _tile_sums(seen.astype(np.float32), tiles.size)[tuple(tiles.corners.T)] / tiles.size**2
     chosen = np.flatnonzero(shares >= _LEAST_COVER)
     if len(chosen) < _LEAST_TILES:

@@ -12,12 +12,18 @@ from .verification import NEEDED_AT_SCANNER, NO_EVIDENCE, RADIUS, TILE, Evidence
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
+# Pixels, tile, radius, blur and spread from guess to guess: a direction from the scanner is found nearly exactly, and
+# weak evidence shows on fine levels only; a place aside is found roughly.
+_FROM_SCANNER = ([(0.6, TILE, 8, 2.0, 0.5)],)
+_FROM_ASIDE = ([(*_COARSE, 10, 1.5, 1.2)], [(*_MIDDLE, 10, 1.0, 0.8)])
 # From this multiple of the needed evidence on, nothing better is looked for.
-_CONVINCING = 3.0
+_CONVINCING = 2.0
 _GUESSES = 14
 _TRIED = 5
 _PENALTY = 0.004
-_ROUNDS, _PROMISING = 5, 0.2
+_ROUNDS, _PROMISING = 2, 0.2
+# A guess is refined with all there is only if its tiles tell something, a second only if it is nearly as good.
+_TELLING, _NEARLY = 1.0, 0.6
 # Of a homography whose tiles are in place no oftener than by chance nothing is hoped for.
 _LEAST_DEVIATIONS = 1.5
 _LEAST_CONTRAST = 8
@@ -100,17 +106,20 @@ def register(views, photo, *, step=lambda text: None):
     def aside_step():
         step(f"{photo.name}: searching viewpoints")
 
+    def from_scanner(tone):
+        return _tried(views, photo, tone, search.from_scanner(tone, search_step), False, step)
+
     attempts = (
-        lambda: _by_features(views, photo, "ranks", features_step),
-        lambda: _tried(views, photo, "ranks", search.from_scanner("ranks", search_step), False, step),
-        lambda: _tried(views, photo, "ranks", search.from_aside("ranks", aside_step), True, step),
-        lambda: _tried(views, photo, "percentiles", search.from_scanner("percentiles", search_step), False, step),
+        (_CONVINCING, lambda: _by_features(views, photo, "ranks", features_step)),
+        (_CONVINCING, lambda: from_scanner("ranks")),
+        (1.0, lambda: _tried(views, photo, "ranks", search.from_aside("ranks", aside_step), True, step)),
+        (1.0, lambda: from_scanner("percentiles")),
     )
-    for attempt in attempts:
+    for enough, attempt in attempts:
         found = attempt()
         if found.evidence.rank > best.evidence.rank:
             best = found
-        if best.accepted and best.evidence.rank >= _CONVINCING:
+        if best.accepted and best.evidence.rank >= enough:
             break
     return best
 
@@ -136,13 +145,22 @@ def confirmed(views, photo, model):
 
 def refined(views, photo, model, tone, levels, *, free, rng):
     """Return a model fitted level by level, and its `Evidence` on the last one."""
+    model = _led(views, photo, model, tone, levels, free, rng)
+    if model is None:
+        return None, NO_EVIDENCE
+    share, size = levels[-1][:2]
+    found = surfaces(views.image(tone, share), views.tiles(tone, share, size), photo, model, RADIUS)
+    return model, NO_EVIDENCE if found is None else judged(found)
+
+
+def _led(views, photo, model, tone, levels, free, rng):
+    """A model fitted level by level; None where the photo shows too little of the scan."""
     for share, size, radius, blur, spread in levels:
         found = surfaces(views.image(tone, share), views.tiles(tone, share, size), photo, model, radius)
         if found is None:
-            return model, NO_EVIDENCE
+            return None
         model, _ = fitted(found, model, free, blur=blur, spread=spread, penalty=_PENALTY, rng=rng)
-    found = surfaces(views.image(tone, share), views.tiles(tone, share, size), photo, model, RADIUS)
-    return model, NO_EVIDENCE if found is None else judged(found)
+    return model
 
 
 def finely(views, photo, model, tone, rng, *, turned_only=False):
@@ -157,14 +175,14 @@ def finely(views, photo, model, tone, rng, *, turned_only=False):
     else:
         stages = [(model.POSE, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)]), (model.ALL, [(*_FINE, 6, 0.5, 0.2)])]
     for free, levels in stages:
-        model, proof = refined(views, photo, model, tone, levels, free=free, rng=rng)
-        if proof is NO_EVIDENCE:
-            return model, proof
+        model = _led(views, photo, model, tone, levels, free, rng)
+        if model is None:
+            return None, NO_EVIDENCE
     image, tiles = views.image(tone, _FINE[0]), views.tiles(tone, *_FINE)
     for _ in range(2):
         found = surfaces(image, tiles, photo, model, RADIUS)
         if found is None:
-            return model, NO_EVIDENCE
+            return None, NO_EVIDENCE
         model = tightened(found, model, model.TURNED if turned_only else model.ALL)
     return model, evidence(image, photo, model)
 
@@ -201,35 +219,31 @@ def _by_features(views, photo, tone, step):
 def _tried(views, photo, tone, guesses, aside, step):
     """The best camera from guesses, of which the better ones go on to the finer levels."""
     rng = np.random.default_rng(0)
-    coarse = []
-    for guess in guesses[:_GUESSES]:
-        step(f"{photo.name}: trying directions")
-        model = guess.camera(photo)
-        free = model.POSE if aside else model.ROTATION
-        coarse.append(refined(views, photo, model, tone, [(*_COARSE, 10, 1.5, 1.2)], free=free, rng=rng))
-    coarse.sort(key=lambda found: -found[1].rank)
-    middle = []
-    for model, _ in coarse[:_TRIED]:
-        step(f"{photo.name}: trying directions")
-        free = model.POSE if aside else model.ROTATION
-        middle.append(refined(views, photo, model, tone, [(*_MIDDLE, 10, 1.0, 0.8)], free=free, rng=rng))
-    middle.sort(key=lambda found: -found[1].rank)
+    found = [(guess.camera(photo), NO_EVIDENCE) for guess in guesses[:_GUESSES]]
+    for levels in _FROM_ASIDE if aside else _FROM_SCANNER:
+        tried = []
+        for model, _ in found:
+            step(f"{photo.name}: trying directions")
+            free = model.POSE if aside else model.ROTATION
+            tried.append(refined(views, photo, model, tone, levels, free=free, rng=rng))
+        tried = [pair for pair in tried if pair[0] is not None]
+        found = sorted(tried, key=lambda pair: -pair[1].rank)[:_TRIED]
     best = Registration(None, NO_EVIDENCE, "search")
-    for start, _ in middle[:2]:
+    for start, promise in found[:2]:
+        if promise.strength < max(_TELLING, _NEARLY * found[0][1].strength) or best.evidence.rank >= _CONVINCING:
+            break
         for turned_only in (False,) if aside else (True, False):
             step(f"{photo.name}: refining")
             model, proof = finely(views, photo, start, tone, rng, turned_only=turned_only)
             if proof.rank > best.evidence.rank:
                 best = Registration(model, proof, "search")
-        if best.evidence.rank >= _CONVINCING:
-            break
     # A camera far from its guess needs several rounds: what it sees changes while it moves.
     for _ in range(_ROUNDS):
-        if best.evidence.rank < _PROMISING:
+        if best.evidence.rank < _PROMISING or best.evidence.rank >= _CONVINCING:
             break
         step(f"{photo.name}: refining")
         model, proof = finely(views, photo, best.model, tone, rng)
-        if proof.rank <= 1.02 * best.evidence.rank:
+        if proof.rank <= 1.05 * best.evidence.rank:
             break
         best = Registration(model, proof, "search")
     return best

@@ -17,7 +17,9 @@ _DISTANCES = (0.8, 1.0, 1.25)
 # Places around a scanner that sees all around: distances in the median one of what is seen, and how many of each.
 _RINGS = ((0.25, 6), (0.5, 9), (0.8, 12))
 # Many places are tried on maps so much coarser, the best of them on the finer ones.
-_COARSER = 2.0
+_COARSER = 2
+# Pixels of a photo's map at most, or not many more.
+_MOST_PIXELS = 250
 _SHARPENED, _LOOKED_AT = 5, 14
 _REACH_DEG = 6.0
 
@@ -66,8 +68,8 @@ class Search:
     """
 
     def __init__(self, views, photo):
-        self._views = views
-        self._fine, self._coarse = (PhotoMaps(photo, views.step_deg * factor) for factor in (1.0, _COARSER))
+        self._views, self._photo = views, photo
+        self._photo_maps = {}
 
     def from_scanner(self, tone, step=lambda: None):
         """Return `Guess`es of a photo taken from the scanner's place, best first.
@@ -79,13 +81,7 @@ class Search:
         step : callable
             Called now and then; may raise to end the work.
         """
-        sphere = self._sphere(tone, (0.0, 0.0, 0.0), self._fine.step_deg)
-        guesses = []
-        for focal in _FOCALS:
-            step()
-            for pitch in _PITCHES:
-                guesses += sphere.peaks(self._fine, (focal, pitch, 0.0), 3)
-        guesses = _unlike_ones(guesses)
+        guesses = _unlike_ones(self._everywhere(tone, [(0.0, 0.0, 0.0)], 1, _FOCALS, _PITCHES, 3, step))
         tried = []
         for guess in guesses[:_SHARPENED]:
             step()
@@ -95,20 +91,35 @@ class Search:
 
     def from_aside(self, tone, step=lambda: None):
         """Return `Guess`es of a photo taken from beside the scanner; see `from_scanner`."""
-        scan = self._views.scan
-        step()
-        spheres = [self._sphere(tone, place, self._coarse.step_deg) for place in viewpoints(scan)]
-        guesses = []
-        for focal in _ASIDE_FOCALS:
-            step()
-            for pitch in _ASIDE_PITCHES:
-                for sphere in spheres:
-                    guesses += sphere.peaks(self._coarse, (focal, pitch, 0.0), 2)
+        places = viewpoints(self._views.scan)
+        guesses = self._everywhere(tone, places, _COARSER, _ASIDE_FOCALS, _ASIDE_PITCHES, 2, step)
         looked_at = []
         for guess in _unlike_ones(guesses)[:_LOOKED_AT]:
             step()
             looked_at += self._near(tone, guess, [guess.focal * factor for factor in (0.93, 1.0, 1.07)], [0.0])
         return _unlike_ones(looked_at)
+
+    def _everywhere(self, tone, places, coarser, focals, pitches, count, step):
+        """The best guesses from each place for each focal length and pitch."""
+        guesses, spheres = [], {}
+        for focal in focals:
+            maps = self._maps(focal, coarser)
+            if maps.step_deg not in spheres:
+                step()
+                spheres = {maps.step_deg: [self._sphere(tone, place, maps.step_deg) for place in places]}
+            step()
+            for pitch in pitches:
+                for sphere in spheres[maps.step_deg]:
+                    guesses += sphere.peaks(maps, (focal, pitch, 0.0), count)
+        return guesses
+
+    def _maps(self, focal, coarser=1):
+        """The photo's maps, of larger pixels for a photo that is much wider than the scan."""
+        wide = np.degrees(2 * np.arctan(0.5 / focal)) / (self._views.step_deg * coarser * _MOST_PIXELS)
+        coarser *= 2 ** max(0, round(np.log2(wide)))
+        if coarser not in self._photo_maps:
+            self._photo_maps[coarser] = PhotoMaps(self._photo, self._views.step_deg * coarser)
+        return self._photo_maps[coarser]
 
     def _sphere(self, tone, center, step_deg, window=None):
         image = self._views.image(tone, 0.5)
@@ -119,17 +130,18 @@ class Search:
         # The pitch of the map need be right only as far as it bends the map: then many guesses share one.
         pitch = float(np.clip(round(guess.pitch_deg / 6) * 6, -60, 60))
         keys = [(_rounded(focal), pitch, roll) for focal in focals for roll in rolls]
-        patch = self._fine.at(min(keys)[0], pitch, 0.0)
+        maps = self._maps(guess.focal)
+        patch = maps.at(min(keys)[0], pitch, 0.0)
         if patch is None:
             return []
-        height, width = (length * self._fine.step_deg for length in patch.seen.shape)
+        height, width = (length * maps.step_deg for length in patch.seen.shape)
         top = patch.top + guess.pitch_deg - pitch
         left = guess.yaw_deg + patch.left
         window = (left - _REACH_DEG, left + width + _REACH_DEG, top - height - _REACH_DEG, top + _REACH_DEG)
-        sphere = self._sphere(tone, guess.center, self._fine.step_deg, window)
+        sphere = self._sphere(tone, guess.center, maps.step_deg, window)
         found = []
         for key in keys:
-            found += sphere.peaks(self._fine, key, count, (_REACH_DEG, _REACH_DEG))
+            found += sphere.peaks(maps, key, count, (_REACH_DEG, _REACH_DEG))
         return found
 
 

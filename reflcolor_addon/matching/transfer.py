@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .photo_image import spacing, visible
+from .photo_image import depth_buffer, spacing, visible
 from .unknown_space import hidden_by_unknown
 
 _JUMP = 0.04
@@ -12,6 +12,9 @@ _MARGIN = 2
 _GRAZING = 0.2
 _BORDER_SHARE = 0.005
 _BEHIND = 0.1
+_FARTHER = 0.1
+# From behind and from this far above or below, sine of the angle, another part of the thing is seen than its back.
+_LEVEL = 0.2
 # A pixel that is this dark carries no color; files hold black where they have nothing.
 _DARKEST = 6
 _PATCH = 3
@@ -55,9 +58,12 @@ def seen_by(photo, model, image):
     cosine = _cosine(model, image)
     solid = _opened(seen & ~jumps(image), image.valid)
     usable = solid & inside & (np.abs(cosine) > _GRAZING)
+    behind = cosine < 0
     if model.kind == "pose":
-        usable &= ~hidden_by_unknown(image, model.center, usable)
-    behind = usable & (cosine < 0)
+        usable &= ~_at_outline(model, xy, depth, seen)
+        usable &= ~hidden_by_unknown(image, model.center, usable, behind)
+        usable &= ~(behind & (_slope(model, image) > _LEVEL))
+    behind &= usable
     detail = spacing(xy, seen)
     rgb = _sampled_rgb(photo, xy, usable, detail)
     usable &= rgb.max(axis=-1) >= _DARKEST
@@ -88,6 +94,20 @@ def jumps(image):
     return edge
 
 
+def _at_outline(model, xy, depth, seen):
+    """(h, w) bool: next to what lies farther or is unknown in the photo, where a camera slightly off sees that."""
+    import cv2
+
+    result = np.zeros(seen.shape, bool)
+    if seen.any():
+        nearest, place = depth_buffer(model, xy, depth, seen)
+        size = 2 * _MARGIN + 1
+        # Beyond the photo's border nothing is known to be farther.
+        farthest = cv2.dilate(nearest, np.ones((size, size)), borderType=cv2.BORDER_REPLICATE)
+        result[seen] = farthest[place] > depth[seen] * (1 + _FARTHER)
+    return result
+
+
 def _opened(good, valid):
     """Pixels whose valid neighborhood, a margin wide, is good; few bad ones in it are noise and forgiven."""
     import cv2
@@ -110,6 +130,12 @@ def _cosine(model, image):
     cosine = (image.normals * way).sum(axis=-1) * to_scanner
     # At the rim of a thing a neighbor is missing and the normal unknown: the margins take care of rims.
     return np.where(image.normals.any(axis=-1), cosine, 0.5)
+
+
+def _slope(model, image):
+    """(h, w): sine of the angle by which the way to the camera rises or falls."""
+    way = model.center - image.points
+    return np.abs(way[..., 2]) / np.maximum(np.linalg.norm(way, axis=-1), 1e-12)
 
 
 def _sampled_rgb(photo, xy, usable, detail):

@@ -13,10 +13,11 @@ _APART_COSINE = np.cos(np.radians(75))
 _BEHIND_SHARE = 0.04
 
 
-def hidden_by_unknown(image, center, chosen):
+def hidden_by_unknown(image, center, chosen, behind):
     """Return (h, w) bool: which of the chosen pixels a camera may well not see.
 
-    A way that begins in unknown space is let pass while it stays there: that is the inside of the surface's own thing.
+    The way from a surface's back begins in unknown space and is let pass while it stays there: that is the inside of
+    the surface's own thing.
 
     Parameters
     ----------
@@ -24,6 +25,8 @@ def hidden_by_unknown(image, center, chosen):
     center : (3,) float64
         Of the camera, metres, scanner frame.
     chosen : (h, w) bool
+    behind : (h, w) bool
+        Which of them turn their backs to the camera.
     """
     points = image.points[chosen]
     way = center - points
@@ -32,7 +35,7 @@ def hidden_by_unknown(image, center, chosen):
     asked = cosine < _APART_COSINE
     points, way = points[asked], way[asked]
     ranges = _range_map(image)
-    left_own = np.zeros(len(points), bool)
+    left_own = ~behind[chosen][asked]
     hidden = np.zeros(len(points), bool)
     # Not up to the camera: it may stand in a place that the scanner did not see into.
     for share in np.linspace(0.02, 0.85, _STEPS):

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .refinement import Tiles, surfaces
+from .refinement import Sighting, Tiles, surfaces
 
 RADIUS = 8
 """Half the window that a tile is sought in, in pixels."""
@@ -82,7 +82,10 @@ def evidence(scan_image, photo, model):
 
     Chance is not the same for tiles of different sizes: what is right stands out in all of them.
     """
-    found = [surfaces(scan_image, Tiles.of(scan_image, size), photo, model, RADIUS) for size in _SIZES]
+    sighting = Sighting.of(scan_image, photo, model)
+    if sighting is None:
+        return NO_EVIDENCE
+    found = [surfaces(scan_image, Tiles.of(scan_image, size), photo, model, RADIUS, sighting) for size in _SIZES]
     if any(one is None for one in found):
         return NO_EVIDENCE
     judgements = [judged(one) for one in found]

@@ -7,7 +7,7 @@ import time
 import bpy
 from inside.scans import PAPER_SIZE, write_large_scan, write_seeds
 from inside.window import EXTENSION
-from scenario_picking import at_pixel, image_areas
+from scenario_picking import at_pixel, image_areas, laid_out
 
 LIMIT_S = 600
 FIRST_S, FULL_S = 0.3, 1.0
@@ -46,7 +46,7 @@ def scenario_a_seed_more_colors_at_once(window):
     window.call("reflcolor.load_photo", filepath=window.example("photo.jpg"))
     window.call("reflcolor.load_seeds", filepath=write_seeds(window, PAPER_SIZE, 50))
     window.call("reflcolor.open_seed_picking")
-    yield from window.until(lambda: len(image_areas(window)) == 2, 40, "the workspace is laid out")
+    yield from window.until(lambda: laid_out(window), 40, "the workspace is laid out")
     yield 1.5
     window.scene.reflcolor.picked_color = (0.8, 0.2, 0.1)
     with Watch() as watch:
@@ -92,7 +92,7 @@ def scenario_thousands_of_seeds_cost_no_time_to_draw(window):
     window.call("reflcolor.import_scan", filepath=write_large_scan(window))
     window.call("reflcolor.load_seeds", filepath=write_seeds(window, PAPER_SIZE, 5000))
     window.call("reflcolor.open_seed_picking")
-    yield from window.until(lambda: len(image_areas(window)) == 2, 40, "the workspace is laid out")
+    yield from window.until(lambda: laid_out(window), 40, "the workspace is laid out")
     yield 2.0
     area = image_areas(window)[0]
     area.spaces.active.show_region_ui = False

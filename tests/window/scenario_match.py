@@ -1,5 +1,6 @@
 """Seeds are found in a photo, by the panel's button, and ESC in the middle changes nothing."""
 
+import bpy
 from inside.scans import state_of
 
 
@@ -14,14 +15,20 @@ def prepared(window):
 def scenario_match_finds_seeds_and_keeps_picked_ones(window):
     yield from prepared(window)
     yield from window.click_button("reflcolor.match_photos")
-    yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 100, 60, "more than 100 seeds are found")
+    yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 100, 200, "more than 100 seeds are found")
     seeds = window.scan.reflcolor.seeds
     window.equal((seeds[0].row, seeds[0].col, seeds[0].reason), (10, 20, "hand"), "the seed picked by hand")
     window.check("verified" in window.scene.reflcolor.photos[0].note, "the photo's note says that it was verified")
     yield from window.screenshot("found")
-    window.area("TIMELINE").ui_type = "IMAGE_EDITOR"
-    window.area("IMAGE_EDITOR").spaces.active.image = window.scan.reflcolor.matches_image
+    view = window.area("VIEW_3D")
+    view.ui_type = "IMAGE_EDITOR"
+    view.spaces.active.image = window.scan.reflcolor.matches_image
+    yield 0.2
+    with window.at(view):
+        bpy.ops.image.view_all(fit_view=True)
     yield from window.screenshot("matches")
+    view.ui_type = "VIEW_3D"
+    yield 0.2
     yield from window.undo()
     window.equal(len(window.scan.reflcolor.seeds), 1, "seeds after Ctrl Z")
 

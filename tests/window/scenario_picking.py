@@ -12,8 +12,17 @@ def open_picking(window):
     window.call("reflcolor.load_photo", filepath=window.example("photo.jpg"))
     yield from window.show_sidebar()
     yield from window.click_button("reflcolor.open_seed_picking")
-    yield from window.until(lambda: len(image_areas(window)) == 2, 40, "two Image Editors are laid out")
-    yield 1.0
+    yield from window.until(lambda: laid_out(window), 40, "two Image Editors and a 3D View are laid out")
+    yield 0.7
+
+
+def laid_out(window):
+    """Whether the workspace is as it will be: the last that is done is to bring the steps to the front."""
+    kinds = sorted(area.type for area in window.bpy_window.screen.areas)
+    if kinds[-3:] != ["IMAGE_EDITOR", "IMAGE_EDITOR", "VIEW_3D"]:
+        return False
+    sidebar = window.region(window.area("VIEW_3D"), "UI")
+    return sidebar.width > 1 and sidebar.active_panel_category == "Reflectance"
 
 
 def image_areas(window):

@@ -28,7 +28,7 @@ class Eyes:
         The mouse is taken aside first, so that no tooltip shows, unless it is to be kept.
         """
         if not keep_mouse:
-            yield from self.move((self.bpy_window.width // 2, 4))
+            yield from self.move((self.bpy_window.width * 0.75, 4))
         if not still:
             yield 0.1
             self.picture_now(name)

@@ -53,10 +53,12 @@ class Hands:
 
     def key(self, name, text="", **held):
         """Press and release a key by Blender's name for it ("Z", "ESC", "RET"), where the mouse is."""
+        yield from self._hold(held)
         self._event(name, "PRESS", unicode=text, **held)
         yield from self._turns(1)
         self._event(name, "RELEASE", **held)
         yield from self._turns(2)
+        yield from self._let_go(held)
 
     def type(self, text):
         """Type a text into the field that has the cursor."""

@@ -105,14 +105,26 @@ class Window(Hands, Eyes, Buttons, Stalls):
     def call(self, operator, *, area=None, **arguments):
         """Call an operator by script, "reflcolor.add_seed", in an area's context, with an undo step of its own."""
         group, name = operator.split(".")
+        function = getattr(getattr(bpy.ops, group), name)
         with self.at(area or self.area("VIEW_3D")):
-            return getattr(getattr(bpy.ops, group), name)("EXEC_DEFAULT", True, **arguments)
+            # Not with Blender's own argument for undo: with it, what is not given is taken from the last call.
+            result = function("EXEC_DEFAULT", **arguments)
+        if "UNDO" in function.bl_options and "FINISHED" in result:
+            self.push(operator)
+        return result
 
     def invoke(self, operator, *, area=None, **arguments):
         """Call an operator as a button does: with its dialog or file browser, or going on in the window."""
         group, name = operator.split(".")
         with self.at(area or self.area("VIEW_3D")):
             return getattr(getattr(bpy.ops, group), name)("INVOKE_DEFAULT", True, **arguments)
+
+    def drop(self, *paths, area=None):
+        """Drop files on an area: call what Blender calls when it gets them from another program."""
+        folders = {str(Path(path).parent) for path in paths}
+        self.equal(len(folders), 1, "folders of what is dropped at once")
+        files = [{"name": Path(path).name} for path in paths]
+        return self.invoke("wm.drop_import_file", area=area, directory=folders.pop(), files=files)
 
     def undo(self, redo=False):
         """Press Ctrl Z, or Shift Ctrl Z, with the mouse over the 3D View."""

@@ -1,0 +1,154 @@
+"""The pairs of scan and photo that benchmarks.matching measures."""
+
+import itertools
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from benchmarks import real_scans
+from benchmarks.experiments import cases
+from reflcolor_addon import Scan, Seeds, read_scans
+from reflcolor_addon.image_files import read_image
+
+DATA = Path(os.environ.get("REFLCOLOR_DATA") or "../shared/data")
+BILDSTEIN = ("01", "05", "10", "15", "20", "25")
+K4A_PHOTO, PUMP_PHOTO = DATA / "k4a_mug/color_1280x720.jpg", DATA / "pumpA/pumpA_photo.jpg"
+# What a person would click on in the scan of the pumps (row, column) and in the snapshot of them from another side (x,
+# y): the tops of two poles, a lever, the lower end of the plinth's corner, a flange, a corner of the steel frame.
+PUMP_PAIRS = (
+    (394, 109, 884, 543),
+    (387, 197, 790, 630),
+    (312, 83, 1603, 472),
+    (803, 33, 1974, 1602),
+    (487, 71, 1675, 800),
+    (757, 44, 1873, 1525),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """A scan, what it is matched with, and its true colors (H, W, 3) where they are known (H, W)."""
+
+    scan: Scan
+    label: str
+    photos: tuple
+    truth: np.ndarray
+    known: np.ndarray
+    hand: Seeds | None = None
+
+
+def straight(scenes):
+    """Yield every scan with its own colors as the photo."""
+    for name in real_scans.NAMES:
+        scan = real_scans.load(name, DATA)
+        yield _real(scan, "own", scan.color)
+
+
+def warped(scenes):
+    """Yield every scan with its own colors, warped."""
+    for name in real_scans.NAMES:
+        scan = real_scans.load(name, DATA)
+        yield _real(scan, "own, warped", warped_photo(scan.color))
+
+
+def turned(scenes):
+    """Yield the views of the church with their neighbors, turned by 24 or 30 degrees, both ways."""
+    for first, second in itertools.pairwise(BILDSTEIN):
+        for own, other in ((first, second), (second, first)):
+            photo = real_scans.load(f"bildstein_{other}", DATA).color
+            yield _real(real_scans.load(f"bildstein_{own}", DATA), f"view {other}", photo)
+
+
+def k4a(scenes):
+    """Yield the infrared camera's image with the photo of the camera beside it."""
+    yield _real(real_scans.load("k4a", DATA), K4A_PHOTO.name, K4A_PHOTO)
+
+
+def pump(scenes):
+    """Yield the pumps with a snapshot from another side: as it is, and with six pairs picked by hand."""
+    scan = real_scans.load("pumpA", DATA)
+    yield _real(scan, PUMP_PHOTO.name, PUMP_PHOTO)
+    rows, cols, x, y = np.array(PUMP_PAIRS).T
+    photo = read_image(PUMP_PHOTO)
+    hand = Seeds(rows, cols, photo[y, x], photos=(PUMP_PHOTO.name,) * len(x), photo_xy=np.column_stack([x, y]))
+    yield Pair(scan, "and six pairs by hand", (PUMP_PHOTO,), scan.color, real_scans.has_truth(scan), hand)
+
+
+def simulated(degrees):
+    """Return what yields the scenes of the paper with photos so many degrees off the scanner's line."""
+
+    def pairs(scenes):
+        for name, scan, truth, script in (
+            ("cones", "cones", "truth", "views.py"),
+            ("person_room", "room", "truth", "make.py"),
+            ("brick_house", "south", "south.truth", "make.py"),
+        ):
+            folder = cases.simulated(scenes / name, script)
+            (own,) = read_scans(folder / f"{scan}.scan.json")
+            photo = folder / f"photo_{degrees}.jpg"
+            yield Pair(own, f"{name}, {degrees} deg", (photo,), read_image(folder / f"{truth}.png"), own.valid)
+
+    return pairs
+
+
+def site(scenes):
+    """Yield a label and the `Pair`s of all four scans of the house, for one photo and for three."""
+    house = cases.simulated(scenes / "brick_house")
+    for label, names in (
+        ("one photo", ("photo_25.jpg",)),
+        ("three photos", ("photo_25.jpg", "photo_north.jpg", "photo_west.jpg")),
+    ):
+        photos = tuple(house / name for name in names)
+        pairs = []
+        for side in cases.HOUSE_SIDES:
+            (scan,) = read_scans(house / f"{side}.scan.json")
+            pairs.append(Pair(scan, label, photos, read_image(house / f"{side}.truth.png"), scan.valid))
+        yield label, pairs
+
+
+def unrelated():
+    """Yield every real scan with the name and the image of every photo of something else."""
+    photos = {name: real_scans.load(name, DATA).color for name in real_scans.NAMES}
+    photos |= {"k4a photo": read_image(K4A_PHOTO), "pumpA photo": read_image(PUMP_PHOTO)}
+    for name in real_scans.NAMES:
+        scan = real_scans.load(name, DATA)
+        for other, photo in photos.items():
+            if not _related(name, other):
+                yield scan, other, photo
+
+
+GROUPS = {
+    "straight": straight,
+    "warped": warped,
+    "turned": turned,
+    "k4a": k4a,
+    "pumpA": pump,
+    **{f"simulated-{degrees}": simulated(degrees) for degrees in (10, 25, 45)},
+}
+
+
+def warped_photo(color):
+    """Return a photo's own colors warped strongly, twice as large, darker and warmer, JPEG of quality 80."""
+    height, width = color.shape[:2]
+    corners = np.float32([[0, 0], [width, 0], [width, height], [0, height]])
+    moved = np.float32([[0.12, 0.06], [0.93, 0.0], [1.0, 0.95], [0.0, 0.86]]) * np.float32([width, height]) * 2
+    large = cv2.warpPerspective(
+        color, cv2.getPerspectiveTransform(corners, moved), (2 * width, 2 * height), flags=cv2.INTER_CUBIC
+    )
+    lit = np.clip((large / 255.0) ** 1.1 * np.array([1.08, 0.95, 0.8]) * 255, 0, 255).astype(np.uint8)
+    data = cv2.imencode(".jpg", lit[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 80])[1]
+    return cv2.imdecode(data, cv2.IMREAD_COLOR)[..., ::-1].copy()
+
+
+def _real(scan, label, photo):
+    return Pair(scan, label, (photo,), scan.color, real_scans.has_truth(scan))
+
+
+def _related(name, other):
+    """Whether a photo shows anything of a scan: it is of the same place, or turned by at most 60 degrees."""
+    if name.startswith("bildstein") and other.startswith("bildstein"):
+        return abs(int(name[-2:]) - int(other[-2:])) < 10
+    return name.split("_")[0] == other.split(" ")[0].split("_")[0]

@@ -1,0 +1,73 @@
+"""Photos and settings that are odd: each gives a clear line or a sensible result."""
+
+import cv2
+import numpy as np
+import painted_room
+import pytest
+
+from reflcolor_addon import ImageError, Settings
+from reflcolor_addon.matching import draw_matches, match_photos, match_seeds
+from reflcolor_addon.matching.match import opened_photos
+
+AS_PUBLISHED = Settings(matching="paper", slic_segments=60)
+
+
+@pytest.fixture(scope="module")
+def room():
+    return painted_room.scan(rows=60, columns=90, step_deg=0.6)
+
+
+@pytest.fixture(scope="module")
+def corner():
+    return painted_room.scan(rows=20, columns=30, step_deg=1.8)
+
+
+@pytest.fixture(scope="module")
+def photo():
+    return painted_room.photo(painted_room.camera(width=120, height=90))
+
+
+def test_a_file_that_is_no_photo_is_refused_by_its_name(room, tmp_path):
+    path = tmp_path / "broken.jpg"
+    path.write_bytes(b"this is no photo")
+    with pytest.raises(ImageError, match=r"broken\.jpg"):
+        match_seeds(room, [path])
+
+
+@pytest.mark.parametrize("kind", ["gray", "alpha", "16 bits"])
+def test_a_gray_transparent_or_16_bit_file_is_taken_as_its_colors(room, photo, tmp_path, kind):
+    path = tmp_path / "photo.png"
+    written, expected = {
+        "gray": (photo[..., 0], np.repeat(photo[..., :1], 3, axis=-1)),
+        "alpha": (np.dstack([photo[..., ::-1], np.full(photo.shape[:2], 90, np.uint8)]), photo),
+        "16 bits": (photo[..., ::-1].astype(np.uint16) * 257, photo),
+    }[kind]
+    assert cv2.imwrite(str(path), written)
+    (opened,) = opened_photos([path])
+    np.testing.assert_array_equal(opened.rgb, expected)
+    assert len(match_seeds(room, [path], AS_PUBLISHED)) > 10
+
+
+def test_two_hundred_megapixels_are_reduced_and_their_points_counted_in_full(room, photo):
+    huge = cv2.resize(photo, (16384, 12288), interpolation=cv2.INTER_NEAREST)
+    (opened,) = opened_photos([huge])
+    assert opened.rgb.shape == (4500, 6000, 3)
+    assert (opened.width, opened.height) == (16384, 12288)
+    seeds = match_seeds(room, [huge], AS_PUBLISHED)
+    assert seeds.photo_xy.max() > 6000
+    assert (seeds.photo_xy < [16384, 12288]).all()
+    assert draw_matches(room, [huge], seeds).shape[0] == 720
+
+
+@pytest.mark.parametrize(("segments", "least", "most"), [(1, 1, 4), (20_000, 100, 600)])
+def test_one_segment_or_more_than_pixels_give_seeds(corner, photo, segments, least, most):
+    matching = match_photos(corner, [photo], Settings(slic_segments=segments))
+    assert least <= len(matching.seeds) <= most
+    assert corner.valid[matching.seeds.rows, matching.seeds.cols].all()
+
+
+def test_a_photo_of_sixteen_pixels_a_side_gives_seeds(corner):
+    tiny = np.random.default_rng(0).integers(0, 255, (16, 16, 3), np.uint8)
+    matching = match_photos(corner, [tiny], Settings(slic_segments=40))
+    assert not matching.photos[0].verified
+    assert len(matching.seeds) > 10
