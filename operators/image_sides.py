@@ -81,6 +81,26 @@ def scan_of_image(image, context):
     return None
 
 
+def show_image(context, image):
+    """Show an image in an Image Editor of the window; return whether there was one.
+
+    A photo takes no editor from a scan while there is another, nor a scan's own image one from a photo.
+    """
+    if context.window is None:
+        return False
+    is_scan = scan_of_image(image, context) is not None
+
+    def suits(area):
+        shown = area.spaces.active.image
+        alike = shown is not None and (scan_of_image(shown, context) is not None) == is_scan
+        return shown == image, alike, shown is None, area == context.area
+
+    editors = [area for area in context.window.screen.areas if area.type == "IMAGE_EDITOR"]
+    if editors:
+        max(editors, key=suits).spaces.active.image = image
+    return bool(editors)
+
+
 def event_side(context):
     """Return the Side under the pointer; None if it is over another region than an Image Editor's image."""
     if context.area is None or context.region is None or context.region.type != "WINDOW":

@@ -74,14 +74,3 @@ def read_pixels(image):
     image.pixels.foreach_get(stored)
     pixels = stored.reshape(height, width, image.channels)[::-1, :, :3]
     return np.rint(np.clip(pixels, 0, 1) * 255).astype(np.uint8)
-
-
-def show_image(context, image):
-    """Show an image in an Image Editor of the window; return whether there was one."""
-    if context.window is None:
-        return False
-    for area in context.window.screen.areas:
-        if area.type == "IMAGE_EDITOR":
-            area.spaces.active.image = image
-            return True
-    return False

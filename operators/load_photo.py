@@ -8,7 +8,8 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..reflcolor_addon.image_files import IMAGE_SUFFIXES, read_image
 from ..reflcolor_addon.report import input_entry
-from .images import show_image, write_image
+from .image_sides import show_image
+from .images import write_image
 from .provenance import record_photo
 from .reports import reported
 from .texts import told

@@ -3,7 +3,7 @@
 import bpy
 
 from . import polls
-from .images import show_image
+from .image_sides import show_image
 
 
 class REFLCOLOR_OT_open_reflectance(bpy.types.Operator):

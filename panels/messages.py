@@ -11,7 +11,7 @@ class REFLCOLOR_UL_notices(bpy.types.UIList):
 
     def draw_item(self, _context, layout, _data, notice, _icon, _active_data, _active_property, index):
         icon = "INFO" if not notice.warning else "RESTRICT_SELECT_OFF" if notice.row >= 0 else "ERROR"
-        row = layout.row(align=True)
+        row = layout.split(factor=0.88)
         text = row.row()
         text.alignment = "LEFT"
         text.operator("reflcolor.show_notice", text=notice.text, icon=icon, emboss=False, translate=False).index = index

@@ -3,6 +3,8 @@
 import hashlib
 import importlib
 import json
+from pathlib import Path
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
@@ -151,3 +153,36 @@ def test_the_command_prints_it_from_a_file(colorized, blender_command, tmp_path)
     done = blender_command("provenance", tmp_path / "bad.blend")
     assert done.returncode == 1
     assert "bad.blend: Blender could not read it" in done.stderr.strip().splitlines()[-1]
+
+
+def test_how_seeds_were_found_is_told_while_such_seeds_are_there(colorized):
+    provenance = importlib.import_module(f"{EXTENSION}.operators.provenance")
+    obj = colorized.context.active_object
+    match = SimpleNamespace(name="photo 1", verified=True, reason="pose", note="verified: 90 % agree")
+    provenance.record_matching(
+        obj, SimpleNamespace(photos=[match]), {"photo 1": "view.png"}, Settings(slic_segments=77), ("slic_segments",)
+    )
+    colorized.ops.reflcolor.colorize()
+    assert report(colorized)["photos"] == [] and report(colorized)["settings"]["slic_segments"] == 500
+    obj.reflcolor.seeds[1].reason = "pose"
+    colorized.ops.reflcolor.colorize()
+    found = report(colorized)
+    assert found["photos"] == [{"name": "view.png", "verified": True, "reason": "pose", "note": "verified: 90 % agree"}]
+    assert found["settings"]["slic_segments"] == 77
+    assert [entry["role"] for entry in found["inputs"]] == ["scan", "photo"]
+
+
+def test_the_images_that_a_description_names_are_inputs_too(blender):
+    cones = Path(__file__).resolve().parent.parent / "examples" / "cones"
+    blender.ops.reflcolor.import_scan(filepath=str(cones / "cones.scan.json"))
+    blender.ops.reflcolor.add_seed(row=150, col=200)
+    blender.ops.reflcolor.colorize()
+    inputs = report(blender)["inputs"]
+    assert [Path(entry["path"]).name for entry in inputs] == [
+        "cones.scan.json",
+        "cones.range.png",
+        "cones.reflectance.png",
+    ]
+    assert [{key: entry[key] for key in ("bytes", "sha256")} for entry in inputs] == [
+        hashed(Path(entry["path"])) for entry in inputs
+    ]

@@ -95,7 +95,8 @@ def _strings_of(node):
         assigned = {
             target.id: line.value for line in node.body if isinstance(line, ast.Assign) for target in line.targets
         }
-        return {(ANY, text) for name in ("bl_label", "bl_description") for text in _literals(assigned[name])}
+        texts = (("bl_label", OPERATOR), ("bl_description", ANY))
+        return {(context, text) for name, context in texts for text in _literals(assigned[name])}
     if not isinstance(node, ast.Call):
         return set()
     function = node.func

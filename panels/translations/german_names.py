@@ -35,6 +35,7 @@ _OPERATORS = {
     "Remove Photo": "Foto entfernen",
     "Remove Seed": "Saatpunkt entfernen",
     "Save Seeds": "Saatpunkte speichern",
+    "Seeds": "Saatpunkte",
     "Select All Seeds": "Alle Saatpunkte auswählen",
     "Select Seed": "Saatpunkt auswählen",
     "Select Seeds Inside": "Saatpunkte darin auswählen",
