@@ -200,15 +200,24 @@ def _file_is_saved(_path):
 
 
 @persistent
+def _something_will_be_undone(_scene):
+    """Take the preview off: Blender keeps what no step changed, and with it pointers to an image that is in none."""
+    _take_off()
+
+
+@persistent
 def _something_was_undone(_scene):
-    """An earlier state may still have the preview on."""
-    if _live is None:
-        _take_off()
+    """An earlier state may have had the preview on; where it is followed, it is laid on anew."""
+    _take_off()
+    if _live is not None:
+        _live.wished = None
 
 
 _HANDLERS = (
     (bpy.app.handlers.load_post, _file_was_loaded),
     (bpy.app.handlers.save_pre, _file_is_saved),
+    (bpy.app.handlers.undo_pre, _something_will_be_undone),
+    (bpy.app.handlers.redo_pre, _something_will_be_undone),
     (bpy.app.handlers.undo_post, _something_was_undone),
     (bpy.app.handlers.redo_post, _something_was_undone),
 )
