@@ -18,6 +18,7 @@ from . import (
     drop_color,
     drop_files,
     evaluate,
+    images,
     import_scan,
     jobs,
     keep_gray,
@@ -125,6 +126,7 @@ def register():
 def unregister():
     jobs.stop_all()
     pointer.stop_all()
+    images.forget_pixels()
     while _undo:
         take_off, thing = _undo.pop()
         take_off(thing)

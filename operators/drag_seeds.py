@@ -7,7 +7,8 @@ from .editors import redraw_editors
 from .images import read_pixel
 from .pointer import object_named
 from .quiet import write_quietly
-from .seed_list import FOUND_BY, choose_seed, selected_seeds, snapped_place
+from .seed_arrays import FOUND_BY
+from .seed_list import choose_seed, selected_seeds, snapped_place
 
 
 class DragSeeds:

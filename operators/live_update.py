@@ -11,7 +11,7 @@ from ..reflcolor_addon.errors import ReflcolorError
 from ..reflcolor_addon.live import LiveColorizer
 from . import jobs, polls
 from .editors import redraw_editors
-from .images import write_image
+from .images import put_pixels, stored_pixels
 from .properties import COLORIZE_NAMES, scene_settings
 from .scan_object import scan_reader
 from .seed_arrays import seed_arrays
@@ -28,7 +28,7 @@ class _Live:
 
     def __init__(self, obj):
         self.place = _place(obj)
-        self.colorizer = LiveColorizer(scan_reader(obj))
+        self.colorizer = LiveColorizer(scan_reader(obj), prepare=stored_pixels)
         self.wished = self.kept = None
 
     def wish(self, obj, settings):
@@ -46,7 +46,15 @@ class _Live:
 def _wanted(obj):
     """A value that is the same as long as the object's seeds with a color are; which are selected does not matter."""
     seeds = seed_arrays(obj)
-    columns = (seeds.rows, seeds.cols, seeds.colors, seeds.photo_xy, seeds.photo_names, seeds.by_hand, seeds.confidence)
+    columns = (
+        seeds.rows,
+        seeds.cols,
+        seeds.colors,
+        seeds.photo_xy,
+        seeds.photo_names,
+        seeds.found_by,
+        seeds.confidence,
+    )
     return hash(tuple(column[seeds.has_color].tobytes() for column in columns))
 
 
@@ -125,9 +133,8 @@ def _place(obj):
 
 def _show(obj, result):
     state = obj.reflcolor
-    state.preview_image = write_image(
-        state.preview_image, f"{obj.name} {PREVIEW}", result.rgb, is_data=False, keep=False
-    )
+    size = state.cols, state.rows
+    state.preview_image = put_pixels(state.preview_image, f"{obj.name} {PREVIEW}", result.prepared, size)
     _lay_on_mesh(obj)
     redraw_editors(
         {"IMAGE_EDITOR"}

@@ -9,7 +9,7 @@ from bpy_extras.io_utils import ImportHelper
 from ..reflcolor_addon.image_files import IMAGE_SUFFIXES, read_image
 from ..reflcolor_addon.report import input_entry
 from .image_sides import show_image
-from .images import write_image
+from .images import remember_pixels, write_image
 from .provenance import record_photo
 from .reports import reported
 from .texts import told
@@ -56,6 +56,7 @@ def add_photo(context, path):
     # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
     pixels, entry = read_image(path), input_entry("photo", path)
     image = write_image(None, path.name, pixels, is_data=False)
+    remember_pixels(image, pixels)
     record_photo(image, entry)
     list_photo(context, image)
     return image

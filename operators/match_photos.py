@@ -39,8 +39,8 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         read_scan, settings = scan_reader(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
         self._settings = settings
         numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}
-        hand = renamed(seeds_of(obj, wanted=lambda seed: seed.reason == "hand"), numbered)
-        kept = renamed(seeds_of(obj, wanted=lambda seed: seed.reason != "hand" and seed.locked), numbered)
+        hand = renamed(seeds_of(obj, wanted=lambda seeds: seeds.by_hand), numbered)
+        kept = renamed(seeds_of(obj, wanted=lambda seeds: ~seeds.by_hand & seeds.locked), numbered)
 
         def work(progress, cancelled):
             scan = read_scan()

@@ -11,7 +11,8 @@ from .live_update import redraw_seeds
 from .load_photo import list_photo
 from .quiet import point_to, write_quietly
 from .reports import reported
-from .seed_list import FOUND_BY, selected_seeds
+from .seed_arrays import FOUND_BY
+from .seed_list import selected_seeds
 from .texts import NO_COLOR, told
 
 

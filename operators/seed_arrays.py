@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .seed_list import FOUND_BY
+# The choices of a seed's ``reason``, by their numbers.
+FOUND_BY = ("hand", "pose", "homography", "appearance")
 
 # Object -> (what was read in bulk, and of how many images; the names of the photos, which cannot be).
 _photo_names = {}
@@ -22,7 +23,9 @@ class SeedArrays:
     photo_xy : (S, 2) float32
     photo_names : (S,) str
         Empty where a color is from no photo.
-    selected, locked, has_color, by_hand : (S,) bool
+    selected, locked, has_color : (S,) bool
+    found_by : (S,) int32
+        Numbers of ``FOUND_BY``.
     confidence : (S,) float32
     active : int
         Index of the one that is chosen in the list.
@@ -38,10 +41,15 @@ class SeedArrays:
     selected: np.ndarray
     locked: np.ndarray
     has_color: np.ndarray
-    by_hand: np.ndarray
+    found_by: np.ndarray
     confidence: np.ndarray
     active: int
     key: int
+
+    @property
+    def by_hand(self):
+        """(S,) bool: which were picked by a person."""
+        return self.found_by == FOUND_BY.index("hand")
 
 
 def seed_arrays(obj):
@@ -61,7 +69,7 @@ def seed_arrays(obj):
         "selected": column("select", bool),
         "locked": column("locked", bool),
         "has_color": column("has_color", bool),
-        "by_hand": column("reason", np.int32) == FOUND_BY.index("hand"),
+        "found_by": column("reason", np.int32),
         "confidence": column("confidence", np.float32),
     }
     key = hash((active, *(values.tobytes() for values in columns.values())))

@@ -9,10 +9,8 @@ from ..reflcolor_addon.seeds import Seeds, nearest_valid
 from .editors import select_only
 from .quiet import point_to, write_quietly
 from .scan_object import grid_indices
+from .seed_arrays import FOUND_BY, seed_arrays
 from .texts import told
-
-# The choices of a seed's ``reason``, by their numbers.
-FOUND_BY = ("hand", "pose", "homography", "appearance")
 
 
 class SeedPlace:
@@ -53,17 +51,24 @@ class SeedChoice:
         return index
 
 
-def seeds_of(obj, *, wanted=lambda seed: True):
-    """Return the object's seeds that have a color as the core's Seeds; only those for which ``wanted(seed)`` holds."""
-    seeds = [seed for seed in obj.reflcolor.seeds if seed.has_color and wanted(seed)]
+def seeds_of(obj, *, wanted=lambda seeds: True):
+    """Return the object's seeds that have a color as the core's Seeds.
+
+    ``wanted`` is given the SeedArrays and returns (S,) bool, to leave out others.
+    """
+    seeds = seed_arrays(obj)
+    chosen = np.flatnonzero(seeds.has_color & wanted(seeds))
+    by_hand, named = seeds.by_hand[chosen], seeds.photo_names[chosen] != ""
     return Seeds(
-        rows=np.array([seed.row for seed in seeds], np.int64),
-        cols=np.array([seed.col for seed in seeds], np.int64),
-        rgb=np.rint(np.array([seed.color[:] for seed in seeds]).reshape(-1, 3) * 255).astype(np.uint8),
-        photos=[seed.photo.name if seed.photo else None for seed in seeds],
-        photo_xy=[seed.photo_xy[:] if seed.photo else (np.nan, np.nan) for seed in seeds],
-        confidence=[np.nan if seed.reason == "hand" else seed.confidence for seed in seeds],
-        reason=[None if seed.reason == "hand" else seed.reason for seed in seeds],
+        rows=seeds.rows[chosen].astype(np.int64),
+        cols=seeds.cols[chosen].astype(np.int64),
+        rgb=np.rint(seeds.colors[chosen] * 255).astype(np.uint8),
+        photos=[name or None for name in seeds.photo_names[chosen].tolist()],
+        photo_xy=np.where(named[:, None], seeds.photo_xy[chosen], np.nan),
+        confidence=np.where(by_hand, np.nan, seeds.confidence[chosen]),
+        reason=[
+            None if hand else FOUND_BY[number] for hand, number in zip(by_hand, seeds.found_by[chosen], strict=True)
+        ],
     )
 
 

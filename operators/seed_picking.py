@@ -146,17 +146,18 @@ def _apply(number, area, operator, **properties):
 
 def _close(number, before):
     doomed = _window(number).workspace.name
-    if before in bpy.data.workspaces:
-        _window(number).workspace = bpy.data.workspaces[before]
+    if before not in bpy.data.workspaces:
+        before = next((other.name for other in bpy.data.workspaces if other.name != doomed), doomed)
+    _window(number).workspace = bpy.data.workspaces[before]
     for _ in range(_TRIES):
         yield 0.05
         if _window(number).workspace.name != doomed:
             break
     else:
         return
-    if doomed in bpy.data.workspaces:
-        with bpy.context.temp_override(window=_window(number), workspace=bpy.data.workspaces[doomed]):
-            bpy.ops.workspace.delete()
+    if not any(window.workspace.name == doomed for window in bpy.context.window_manager.windows):
+        workspace = bpy.data.workspaces[doomed]
+        bpy.data.batch_remove([workspace, *workspace.screens])
 
 
 classes = (REFLCOLOR_OT_open_seed_picking,)

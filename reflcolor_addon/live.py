@@ -28,6 +28,8 @@ class LiveResult:
         Of the wish, counted from 1.
     rgb : (H, W, 3) uint8
         Colors of every pixel; the gray of the reflectance where there is none. None if ``error`` is given.
+    prepared : object
+        What ``prepare`` made of ``rgb``.
     colorization : Colorization or None
         The full result; None while it is coarse.
     error : Exception or None
@@ -35,6 +37,7 @@ class LiveResult:
 
     number: int
     rgb: np.ndarray | None = None
+    prepared: object = None
     colorization: Colorization | None = None
     error: Exception | None = None
 
@@ -49,12 +52,15 @@ class LiveColorizer:
     ----------
     read_scan : callable
         Called without arguments in the thread; returns the Scan.
+    prepare : callable, optional
+        Called in the thread with the colors of every result, to make of them what showing them needs.
     arrived : callable, optional
         Called in the thread whenever there is something to take.
     """
 
-    def __init__(self, read_scan, arrived=None):
-        self._read_scan, self._arrived = read_scan, arrived or (lambda: None)
+    def __init__(self, read_scan, *, prepare=None, arrived=None):
+        self._read_scan, self._prepare = read_scan, prepare or (lambda rgb: None)
+        self._arrived = arrived or (lambda: None)
         self._condition = threading.Condition()
         self._wish = self._result = None
         self._number = 0
@@ -110,10 +116,10 @@ class LiveColorizer:
         # A coarse result is quick and always finished: while a seed is dragged there is a new wish all the time.
         rgb = scan.coarse(seeds, settings, lambda: self._stopped)
         if rgb is not None:
-            self._deliver(LiveResult(number, rgb))
+            self._deliver(LiveResult(number, rgb, self._prepare(rgb)))
         if len(seeds):
             found = scan.full(seeds, settings, lambda: self._stopped or self._wish is not None)
-            self._deliver(LiveResult(number, found.rgb, found))
+            self._deliver(LiveResult(number, found.rgb, self._prepare(found.rgb), found))
 
     def _deliver(self, result):
         with self._condition:

@@ -27,8 +27,8 @@ def started():
     """A function that starts a LiveColorizer, which is stopped at the end."""
     running = []
 
-    def start(*args):
-        running.append(LiveColorizer(*args))
+    def start(*args, **options):
+        running.append(LiveColorizer(*args, **options))
         return running[-1]
 
     yield start
@@ -61,7 +61,7 @@ def test_a_large_scan_shows_a_coarse_result_first_that_is_near(started, monkeypa
     monkeypatch.setattr(live_module, "COARSE_PIXELS", 500)
     scan = _scan((60, 90))
     arrived = []
-    live = started(lambda: scan, lambda: arrived.append(live.take()))
+    live = started(lambda: scan, arrived=lambda: arrived.append(live.take()))
     live.wish(SEEDS, Settings())
     limit = time.monotonic() + 30
     while (len(arrived) < 2 or arrived[-1].colorization is None) and time.monotonic() < limit:
@@ -118,3 +118,15 @@ def test_stopping_does_not_wait_for_a_long_colorization():
     start = time.monotonic()
     live.stop()
     assert time.monotonic() - start < 1.0
+
+
+def test_what_showing_needs_is_prepared_in_the_thread(started):
+    scan, threads = _scan((20, 30)), set()
+
+    def prepare(rgb):
+        threads.add(threading.current_thread().name)
+        return rgb.sum()
+
+    live = started(lambda: scan, prepare=prepare)
+    result = _results(live, live.wish(SEEDS.chosen([0]), Settings()))[-1]
+    assert result.prepared == result.rgb.sum() and threads == {"reflcolor live"}

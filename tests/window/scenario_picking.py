@@ -1,5 +1,7 @@
 """Seeds are picked with the mouse: in the reflectance image, in a photo beside it, and on the mesh."""
 
+import bpy
+
 # (row, column) of the scan and (x, y) of the photo of the shipped example.
 PAIRS = (((60, 100), (150, 120)), ((240, 225), (420, 460)), ((150, 380), (700, 300)), ((40, 300), (560, 90)))
 
@@ -136,3 +138,52 @@ def scenario_live_update_shows_a_preview(window):
     yield 0.3
     window.check(window.scan.reflcolor.preview_image is None, "ESC takes the preview off")
     yield from window.screenshot("left")
+
+
+def scenario_every_gesture_does_what_the_manual_says(window):
+    yield from open_picking(window)
+    for (row, col), _ in PAIRS:
+        window.call("reflcolor.add_seed", row=row, col=col, color=(0.8, 0.3, 0.2))
+    yield 0.3
+    chosen = lambda: [seed.select for seed in window.scan.reflcolor.seeds]  # noqa: E731
+    yield from window.click(at_pixel(window, *PAIRS[2][0]))
+    window.equal(chosen(), [False, False, True, False], "a click on a seed selects it alone")
+    yield from window.click(at_pixel(window, *PAIRS[0][0]), shift=True)
+    window.equal(chosen(), [True, False, True, False], "Shift-click adds one")
+    yield from window.move(at_pixel(window, 200, 200))
+    yield from window.key("A", alt=True)
+    window.equal(chosen(), [False] * 4, "Alt A selects none")
+    yield from window.key("B")
+    yield from window.drag(at_pixel(window, 30, 280), at_pixel(window, 160, 400))
+    window.equal(chosen(), [False, False, True, True], "B and a drag select in a box")
+    around = [at_pixel(window, row, col) for row, col in ((40, 130), (80, 130), (80, 70))]
+    yield from window.drag(at_pixel(window, 40, 70), at_pixel(window, 42, 70), ctrl=True, through=around)
+    window.equal(chosen(), [True, False, False, False], "Ctrl-drag selects by a lasso")
+    yield from window.key("L")
+    window.check(window.scan.reflcolor.seeds[0].locked, "L locks it")
+    yield from window.key("A")
+    window.equal(chosen(), [True] * 4, "A selects all")
+    yield from window.key("A", alt=True)
+    yield from window.click(at_point(window, (300, 200)), alt=True)
+    window.check(window.scene.reflcolor.picked and not window.scene.reflcolor.picked_photo, "Alt-click takes a color")
+    yield from window.move(at_pixel(window, 200, 200))
+    yield from window.key("ESC")
+    window.check(not window.scene.reflcolor.picked, "ESC lets go of it")
+    # A pair, whose point in the photo is dragged to another color.
+    yield from window.click(at_pixel(window, 280, 60))
+    yield from window.click(at_point(window, (300, 300)))
+    before = tuple(window.scan.reflcolor.seeds[4].color)
+    yield from window.drag(at_point(window, (300, 300)), at_point(window, (728, 740)))
+    seed = window.scan.reflcolor.seeds[4]
+    window.check(abs(seed.photo_xy[0] - 728) < 8 and tuple(seed.color) != before, "the point and its color follow")
+    # On the mesh.
+    view = window.area("VIEW_3D")
+    with window.at(view):
+        bpy.ops.wm.tool_set_by_id(name="reflcolor.seed_tool_3d", space_type="VIEW_3D")
+    yield 0.3
+    corner = window.scan.matrix_world @ window.scan.data.vertices[len(window.scan.data.vertices) // 3].co
+    yield from window.click(window.place_of_point(view, corner))
+    window.equal(len(window.scan.reflcolor.seeds), 6, "a click on the mesh places a seed")
+    yield from window.screenshot("gestures", keep_mouse=True)
+    yield from window.click(window.place_of_point(view, corner), ctrl=True)
+    window.equal(len(window.scan.reflcolor.seeds), 5, "Ctrl-click there deletes it")
