@@ -1,8 +1,11 @@
 """Draws the seeds over the images and the mesh, and what joins a seed to its point in a photo."""
 
+from contextlib import suppress
+
 import bpy
 import numpy as np
 
+from ..reflcolor_addon.errors import ScanError
 from ..reflcolor_addon.picking import mark_spacing
 from . import drawing, polls
 from .image_sides import side_in
@@ -141,4 +144,6 @@ def _draw_in_world():
 
     key = seeds.key, tuple(map(tuple, obj.matrix_world)), len(obj.data.vertices)
     size = _mark_size(len(seeds.rows), context.region.width, context.region.height)
-    drawing.draw_marks(_batch((obj.name, "world"), key, make), size)
+    # In Edit Mode, or where the mesh has lost its grid, nobody knows where the seeds are; operators say so.
+    with suppress(ScanError):
+        drawing.draw_marks(_batch((obj.name, "world"), key, make), size)

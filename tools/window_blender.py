@@ -122,12 +122,14 @@ def run(line: list[str], limit_s: float, log: Path | None = None) -> Ended:
         try:
             output, _ = process.communicate(timeout=limit_s)
             return Ended(process.returncode, output=(output or b"").decode(errors="replace"))
-        except subprocess.TimeoutExpired:
+        except BaseException as error:
             os.killpg(process.pid, signal.SIGTERM)
             try:
                 process.communicate(timeout=10)
             except subprocess.TimeoutExpired:
                 os.killpg(process.pid, signal.SIGKILL)
+            if not isinstance(error, subprocess.TimeoutExpired):
+                raise
             return Ended(-signal.SIGTERM, timed_out=True)
 
 

@@ -7,12 +7,18 @@ LIMIT_S = 1200
 ACTS = 1000
 
 
+def has_view(window):
+    return any(area.type == "VIEW_3D" for area in window.bpy_window.screen.areas)
+
+
 def scenario_a_thousand_random_acts(window):
     # Refusals in one line; a traceback's last line begins otherwise.
     window.expect_error(r"^Error: (?!Python)")
     acts = RandomActs(window)
     yield from window.show_sidebar()
     for number in range(ACTS):
+        # A workspace is laid out in several turns of the event loop.
+        yield from window.until(lambda: has_view(window), 20, "a 3D View is there")
         name = yield from acts.act()
         # The last line of the log of a crash tells which act it was.
         print(f"window-test: act {number} {name}", flush=True)
@@ -21,7 +27,7 @@ def scenario_a_thousand_random_acts(window):
             state = obj.reflcolor
             inside = all(seed.row < state.rows and seed.col < state.cols for seed in state.seeds)
             window.check(inside, f"seeds of {obj.name} are inside its grid after act {number}, {name}")
-        if not window.area("VIEW_3D").spaces.active.show_region_ui:
+        if has_view(window) and not window.area("VIEW_3D").spaces.active.show_region_ui:
             yield from window.show_sidebar()
     window.check(acts.done > ACTS / 2, f"most acts are done: {acts.done} done, {acts.refused} refused")
     yield from window.screenshot("after")
