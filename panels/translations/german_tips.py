@@ -4,6 +4,9 @@ _OPERATORS = {
     "Add a pixel of the scan whose color is known, given directly or by a point of a photo": (
         "Ein Pixel des Scans hinzufügen, dessen Farbe bekannt ist: unmittelbar oder durch einen Punkt eines Fotos"
     ),
+    "Add a camera that shows the whole scan, and even light, to the scene, and look through the camera; F12 renders": (
+        "Eine Kamera, die den ganzen Scan zeigt, und gleichmäßiges Licht hinzufügen und durch sie blicken; F12 rendert"
+    ),
     "Choose what the viewports show of the scan; only reflectance and colorized change renders and exports, too": (
         "Wählen, was die Ansichten vom Scan zeigen; nur Reflektanz und Eingefärbt ändern auch Bilder und Exporte"
     ),
@@ -22,10 +25,8 @@ _OPERATORS = {
         "Den ganzen Bericht über die Farben des Scans als JSON in die Zwischenablage kopieren"
     ),
     "Delete the selected seeds": "Die ausgewählten Saatpunkte löschen",
-    "Drag a seed, with all that are selected if it is, to move it, in a photo to another color; drag elsewhere in the\n"
-    "reflectance image to lay a line of seeds": (
-        "Einen Saatpunkt ziehen, mit allen ausgewählten, wenn er es ist, versetzt ihn, im Foto zu anderer Farbe;\n"
-        "anderswo im Reflektanzbild ziehen legt eine Linie von Saatpunkten"
+    "Move the seed that is dragged, with all that are selected if it is, or lay a line of seeds where there is none": (
+        "Den gezogenen Saatpunkt versetzen, mit allen ausgewählten, wenn er es ist; wo keiner ist, eine Linie legen"
     ),
     "Find seeds in the photos; those picked by hand and locked ones stay, and four to six picked pairs help": (
         "Saatpunkte in den Fotos suchen; von Hand gesetzte und gesperrte bleiben, vier bis sechs gesetzte Paare helfen"
@@ -53,6 +54,9 @@ _OPERATORS = {
     ),
     "Let go of the picked color; the next seed waits for its own": (
         "Die aufgenommene Farbe loslassen; der nächste Saatpunkt wartet auf seine eigene"
+    ),
+    "Let go of the picked color or, if there is none, leave the preview of Live Update": (
+        "Die aufgenommene Farbe loslassen oder, gibt es keine, die Vorschau der Live-Aktualisierung verlassen"
     ),
     "Load ordinary photos, from any camera and any place, to take colors from": (
         "Gewöhnliche Fotos laden, von irgendeiner Kamera und irgendwo her, um Farben daraus zu nehmen"
