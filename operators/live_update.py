@@ -33,16 +33,21 @@ class _Live:
 
     def wish(self, obj, settings):
         """Ask for the colors of the present seeds and settings, if those are not asked for yet."""
-        seeds = seed_arrays(obj)
-        colored = seeds.has_color
-        wanted = hash((seeds.rows[colored].tobytes(), seeds.cols[colored].tobytes(), seeds.colors[colored].tobytes()))
-        if self.wished != (wanted, settings):
-            self.wished, self.kept = (wanted, settings), None
+        wanted = _wanted(obj), settings
+        if self.wished != wanted:
+            self.wished, self.kept = wanted, None
             self.colorizer.wish(seeds_of(obj), settings)
 
     def settled(self):
         """Whether the newest result is there in full."""
         return self.kept is not None
+
+
+def _wanted(obj):
+    """A value that is the same as long as the object's seeds with a color are; which are selected does not matter."""
+    seeds = seed_arrays(obj)
+    columns = (seeds.rows, seeds.cols, seeds.colors, seeds.photo_xy, seeds.photo_names, seeds.by_hand, seeds.confidence)
+    return hash(tuple(column[seeds.has_color].tobytes() for column in columns))
 
 
 _live = None
@@ -58,7 +63,7 @@ def message():
 
 def finished(obj, settings):
     """Return the Colorization of the object's present seeds by these settings if the preview has it, else None."""
-    if _live is None or not _live.settled() or _live.place != _place(obj) or _live.wished[1] != settings:
+    if _live is None or _live.place != _place(obj) or _live.wished != (_wanted(obj), settings):
         return None
     return _live.kept
 

@@ -17,6 +17,7 @@ _PANELS = {
     "Inputs (SHA-256)": "Eingaben (SHA-256)",
     "Maps show in Solid shading": "Karten zeigen sich in der Schattierung Solide",
     "Needs a scan": "Braucht einen Scan",
+    "The scan has no points to show": "Der Scan hat keine Punkte zu zeigen",
     "Needs seeds": "Braucht Saatpunkte",
     "Next Seed": "Nächster Saatpunkt",
     "No seed reaches": "Von keinem erreicht",

@@ -1,6 +1,13 @@
 """German: tooltips of operators, looks and settings."""
 
 _OPERATORS = {
+    "Add a camera that shows the whole scan, and even light, to the scene, and look through the camera; F12 renders": (
+        "Eine Kamera, die den ganzen Scan zeigt, und gleichmäßiges Licht zur Szene hinzufügen und durch die Kamera "
+        "sehen; F12 rendert"
+    ),
+    "Let go of the picked color or, if there is none, leave the preview of Live Update": (
+        "Die aufgenommene Farbe fallen lassen oder, wenn keine da ist, die Vorschau verlassen"
+    ),
     "Add a pixel of the scan whose color is known, given directly or by a point of a photo": (
         "Ein Pixel des Scans hinzufügen, dessen Farbe bekannt ist: unmittelbar oder durch einen Punkt eines Fotos"
     ),
