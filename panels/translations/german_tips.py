@@ -11,9 +11,6 @@ _OPERATORS = {
     "Add a pixel of the scan whose color is known, given directly or by a point of a photo": (
         "Ein Pixel des Scans hinzufügen, dessen Farbe bekannt ist: unmittelbar oder durch einen Punkt eines Fotos"
     ),
-    "Add a camera that shows the whole scan, and even light, to the scene, and look through the camera; F12 renders": (
-        "Eine Kamera, die den ganzen Scan zeigt, und gleichmäßiges Licht hinzufügen und durch sie blicken; F12 rendert"
-    ),
     "Choose what the viewports show of the scan; only reflectance and colorized change renders and exports, too": (
         "Wählen, was die Ansichten vom Scan zeigen; nur Reflektanz und Eingefärbt ändern auch Bilder und Exporte"
     ),
@@ -61,9 +58,6 @@ _OPERATORS = {
     ),
     "Let go of the picked color; the next seed waits for its own": (
         "Die aufgenommene Farbe loslassen; der nächste Saatpunkt wartet auf seine eigene"
-    ),
-    "Let go of the picked color or, if there is none, leave the preview of Live Update": (
-        "Die aufgenommene Farbe loslassen oder, gibt es keine, die Vorschau der Live-Aktualisierung verlassen"
     ),
     "Load ordinary photos, from any camera and any place, to take colors from": (
         "Gewöhnliche Fotos laden, von irgendeiner Kamera und irgendwo her, um Farben daraus zu nehmen"
