@@ -68,7 +68,6 @@ _MISSING = {
     "The mesh is linked from another file; make it local first": (
         "Das Netz ist aus einer anderen Datei verknüpft; erst lokal machen"
     ),
-    "The scan has no points to show": "Der Scan hat keine Punkte zu zeigen",
     "There are no messages": "Es gibt keine Meldungen",
     "Turn Live Update on first": "Erst die Live-Aktualisierung einschalten",
 }
