@@ -10,8 +10,7 @@ from .stroke_seeds import StrokeSeeds
 
 
 class REFLCOLOR_OT_drag(PointerOperator, bpy.types.Operator):
-    """Drag a seed, with all that are selected if it is, to move it, in a photo to another color; drag elsewhere in the
-    reflectance image to lay a line of seeds"""
+    """Move the seed that is dragged, with all that are selected if it is, or lay a line of seeds where there is none"""
 
     bl_idname = "reflcolor.drag"
     bl_label = "Move Seeds or Stroke"

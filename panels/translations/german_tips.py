@@ -29,10 +29,8 @@ _OPERATORS = {
         "Den ganzen Bericht über die Farben des Scans als JSON in die Zwischenablage kopieren"
     ),
     "Delete the selected seeds": "Die ausgewählten Saatpunkte löschen",
-    "Drag a seed, with all that are selected if it is, to move it, in a photo to another color; drag elsewhere in the\n"
-    "reflectance image to lay a line of seeds": (
-        "Einen Saatpunkt ziehen, mit allen ausgewählten, wenn er es ist, versetzt ihn, im Foto zu anderer Farbe;\n"
-        "anderswo im Reflektanzbild ziehen legt eine Linie von Saatpunkten"
+    "Move the seed that is dragged, with all that are selected if it is, or lay a line of seeds where there is none": (
+        "Den gezogenen Saatpunkt versetzen, mit allen ausgewählten, wenn er es ist; wo keiner ist, eine Linie legen"
     ),
     "Find seeds in the photos; those picked by hand and locked ones stay, and four to six picked pairs help": (
         "Saatpunkte in den Fotos suchen; von Hand gesetzte und gesperrte bleiben, vier bis sechs gesetzte Paare helfen"
