@@ -85,7 +85,7 @@ def exact(images, pixels, alpha, threads, colors=None):
     seeds = list(zip(pixels.tolist(), map(tuple, colors.tolist()), strict=True))
     called = {"added": lambda index, field: None, "cancelled": lambda: False}
     add_fields(engine, blend, seeds, threads=threads, held=HeldFields(0), **called)
-    return blend.mean()
+    return blend.mean(keep=False)
 
 
 def spread_seeds(valid, count):

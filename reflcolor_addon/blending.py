@@ -48,13 +48,18 @@ class Blend:
         for distances, color in zip(fields, colors, strict=True):
             self.add(distances, color)
 
-    def mean(self):
-        """Return the Mean of the seeds so far; more can be added afterwards."""
+    def mean(self, keep=True):
+        """Return the Mean of the seeds so far; more can be added afterwards, if the sums are kept."""
         reached = np.isfinite(self._least)
         chroma = np.where(reached, self._sums, 0) / np.where(reached, self._weight, 1)
         single = (array.astype(np.float32) for array in (chroma, np.where(reached, self._weight, 0), self._least))
         chroma, weight, least = single
-        return Mean(chroma=chroma, weight=weight, nearest_seed=self._nearest_seed.copy(), least=least)
+        return Mean(
+            chroma=chroma,
+            weight=weight,
+            nearest_seed=self._nearest_seed.copy() if keep else self._nearest_seed,
+            least=least,
+        )
 
 
 def blend_nearest(distances, seeds, colors, alpha):

@@ -51,7 +51,8 @@ class Colorizer:
     settings : Settings, optional
         The paper's by default.
     memory : int
-        Bytes that fields may take; the least recently used ones are dropped and computed again when needed.
+        Bytes that fields may take; the least recently used ones are dropped and computed again when needed. With 0,
+        the sums are not kept, either.
     threads : int, optional
         By default one per processor. The number changes no bit of a result.
 
@@ -221,7 +222,10 @@ class Colorizer:
         except BaseException:
             self._forget_sums()
             raise
-        return self._blend.mean(), near
+        mean = self._blend.mean(keep=self._fields.limit > 0)
+        if not self._fields.limit:
+            self._forget_sums()
+        return mean, near
 
     def _nearest(self, pixels, chrominance, k, progress, cancelled):
         control = self._engine.control()

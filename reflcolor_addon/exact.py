@@ -19,7 +19,7 @@ class HeldFields:
     """
 
     def __init__(self, limit):
-        self._limit = limit
+        self.limit = limit
         self._fields = OrderedDict()
         self.nbytes = 0
 
@@ -33,7 +33,7 @@ class HeldFields:
             self.nbytes += field.nbytes
         self._fields[pixel] = field
         self._fields.move_to_end(pixel)
-        while self.nbytes > self._limit:
+        while self.nbytes > self.limit:
             self.nbytes -= self._fields.popitem(last=False)[1].nbytes
 
     def clear(self):

@@ -341,9 +341,12 @@ class Blend:
         for _ in run(add_to, [slice(top, min(top + rows, height)) for top in range(0, height, rows)]):
             pass
 
-    def mean(self):
-        """Return the `Mean` of the seeds so far; more can be added afterwards."""
-        mean = Mean(*(sums.copy() for sums in self._mean))
+    def mean(self, keep=True):
+        """Return the `Mean` of the seeds so far.
+
+        More can be added afterwards if the sums are kept; else they become the result, which saves their memory.
+        """
+        mean = Mean(*(sums.copy() for sums in self._mean)) if keep else self._mean
         check(library().rc_blend_finish(mean.weight.size, address(mean.weight), *map(address, mean.chroma)))
         return mean
 
