@@ -2,9 +2,10 @@
 
 For every pair of a scan and a photo: the mean CIEDE2000 of color alone, painted in the photo's mean color, colorized
 from the seeds found, and from perfect seeds at the same places; and the gap closed, which is what of the way from the
-first to the last was gone. 1 is as good as perfect seeds, 0 as the mean color, below 0 is worse than that. A photo's own
-exposure and white balance cannot be known, so "in light" is the same after three gains that bring its colors, of seeds
-and of mean alike, nearest to the true ones: what is left is from wrong places. Seconds are of processor time. The last group tries every real scan with every photo of something else: none may be verified.
+first to the last was gone. 1 is as good as perfect seeds, 0 as the mean color, below 0 is worse than that. A photo's
+own exposure and white balance cannot be known, so "in light" is the same after three gains that bring its colors, of
+seeds and of mean alike, nearest to the true ones: what is left is from wrong places. Seconds are of processor time.
+The last group tries every real scan with every photo of something else: none may be verified.
 """
 
 import argparse
