@@ -240,7 +240,7 @@ def _tried(views, photo, tone, guesses, aside, step):
                 best = Registration(model, proof, "search")
     # A camera far from its guess needs several rounds: what it sees changes while it moves.
     for _ in range(_ROUNDS):
-        if best.evidence.rank < _PROMISING or best.evidence.rank >= _CONVINCING:
+        if best.evidence.rank < _PROMISING:
             break
         step(f"{photo.name}: refining")
         model, proof = finely(views, photo, best.model, tone, rng)
