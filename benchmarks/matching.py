@@ -2,12 +2,15 @@
 
 For every pair of a scan and a photo: the mean CIEDE2000 of color alone, painted in the photo's mean color, colorized
 from the seeds found, and from perfect seeds at the same places; and the gap closed, which is what of the way from the
-first to the last was gone. 1 is as good as perfect seeds, 0 as the mean color, below 0 is worse than that. Seconds are
-of processor time. The last group tries every real scan with every photo of something else: none may be verified.
+first to the last was gone. 1 is as good as perfect seeds, 0 as the mean color, below 0 is worse than that. A photo's
+own exposure and white balance cannot be known, so "in light" is the same after three gains that bring its colors, of
+seeds and of mean alike, nearest to the true ones: what is left is from wrong places. Seconds are of processor time.
+The last group tries every real scan with every photo of something else: none may be verified.
 """
 
 import argparse
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +19,7 @@ from benchmarks import matching_pairs
 from reflcolor_addon import Seeds, Settings, colorize, evaluate
 from reflcolor_addon.image_files import read_image
 from reflcolor_addon.matching import match_photos, match_site
+from reflcolor_addon.virtual_camera import linear_to_srgb8, srgb8_to_linear
 
 MODES = ("paper", "verified")
 SCENES = Path("build/scenes")
@@ -32,7 +36,7 @@ def main():
     if unknown := set(arguments.groups) - set(groups):
         parser.error(f"no group is called {sorted(unknown)[0]}; there are {', '.join(groups)}")
     modes = arguments.mode or MODES
-    print(f"{'scan':12} {'photo':22} {'mode':9}   mean  result  perfect     gap  seconds  note", flush=True)
+    print(f"{'scan':12} {'photo':22} {'mode':9}   mean  result  perfect     gap in light  seconds  note", flush=True)
     for group in arguments.groups or groups:
         if group == "unrelated":
             unrelated()
@@ -66,24 +70,47 @@ def site(scenes, modes):
 
 
 def summary(group, mode, values):
-    print(f"{group}: {mode}: mean {np.mean(values):.3f}, least {min(values):.3f}, of {len(values)}", flush=True)
+    mean, least = np.mean(values, axis=0), np.min(values, axis=0)
+    figures = f"mean {mean[0]:.3f}, least {least[0]:.3f}; in light {mean[1]:.3f}, {least[1]:.3f}"
+    print(f"{group}: {mode}: {figures}, of {len(values)}", flush=True)
 
 
 def printed(pair, mode, matching, seconds):
-    """Print one line and return the gap closed."""
+    """Print one line and return the gap closed, as it is and in light."""
     seeds, truth = matching.seeds, pair.truth
     perfect = Seeds(rows=seeds.rows, cols=seeds.cols, rgb=truth[seeds.rows, seeds.cols])
     images = [photo if isinstance(photo, np.ndarray) else read_image(photo) for photo in pair.photos]
-    mean = np.mean([image.reshape(-1, 3).mean(axis=0) for image in images], axis=0)
-    painted = np.broadcast_to(np.rint(mean).astype(np.uint8), truth.shape)
+    mean = np.mean([image.reshape(-1, 3).mean(axis=0) for image in images], axis=0)[None]
+    light = gains(seeds.rgb, perfect.rgb)
     settings = Settings(nearest=8)
-    colored = [painted, *(colorize(pair.scan, one, settings).rgb for one in (seeds, perfect))]
-    errors = [evaluate(rgb, truth, pair.known)["color_alone"]["ciede2000_mean"] for rgb in colored]
-    gap = (errors[0] - errors[1]) / (errors[0] - errors[2])
+
+    def error(rgb):
+        return evaluate(rgb, truth, pair.known)["color_alone"]["ciede2000_mean"]
+
+    best = error(colorize(pair.scan, perfect, settings).rgb)
+    errors, gaps = [], []
+    for factors in (np.ones(3), light):
+        painted = np.broadcast_to(lit(np.rint(mean).astype(np.uint8), factors), truth.shape)
+        result = colorize(pair.scan, replace(seeds, rgb=lit(seeds.rgb, factors)), settings).rgb
+        errors.append((error(painted), error(result)))
+        gaps.append((errors[-1][0] - errors[-1][1]) / (errors[-1][0] - best))
     notes = "; ".join(report.note for report in matching.photos)
-    figures = f"{errors[0]:6.2f} {errors[1]:7.2f} {errors[2]:8.2f} {gap:7.3f} {seconds:8.1f}"
+    figures = f"{errors[0][0]:6.2f} {errors[0][1]:7.2f} {best:8.2f} {gaps[0]:7.3f} {gaps[1]:8.3f} {seconds:8.1f}"
     print(f"{pair.scan.name:12} {pair.label:22} {mode:9} {figures}  {notes}", flush=True)
-    return gap
+    return gaps
+
+
+def gains(rgb, truth):
+    """(3,) factors of linear light that bring colors nearest to the true ones."""
+    sound = ((rgb >= 12) & (rgb <= 245) & (truth >= 12) & (truth <= 245)).all(axis=1)
+    if not sound.any():
+        return np.ones(3)
+    return np.exp(np.median(np.log(srgb8_to_linear(truth[sound]) / srgb8_to_linear(rgb[sound])), axis=0))
+
+
+def lit(rgb, factors):
+    """The colors (N, 3) uint8 in light of other strength."""
+    return linear_to_srgb8(np.clip(srgb8_to_linear(rgb) * factors, 0, 1))
 
 
 def unrelated():

@@ -5,14 +5,16 @@ import numpy as np
 from .models import GridHomography
 
 _RATIO = 0.9
-_SIDE = 720
+_SIDE = 900
+# Photos are mostly held upright: then most matches that turn further are wrong.
+_UPRIGHT_DEG = 30
 _LEAST_MATCHES = 12
 _MOST_POINTS = 3000
 VARIANTS = ("gradient", "gray", "contrast", "inverted")
 """Which image of the reflectance is tried in turn; the photo's is the same, but never inverted."""
 
 
-def homographies(grid_image, scan_shape, photo):
+def homographies(grid_image, scan_shape, photo, step=lambda: None):
     """Yield `GridHomography` candidates from matches between the scan's image and a photo, variant by variant.
 
     Parameters
@@ -22,6 +24,8 @@ def homographies(grid_image, scan_shape, photo):
     scan_shape : (rows, columns)
         Of the scan's grid.
     photo : PhotoImage
+    step : callable
+        Called before each variant; may raise to end the work.
     """
     import cv2
 
@@ -30,14 +34,22 @@ def homographies(grid_image, scan_shape, photo):
     to_grid = np.diag([scan_shape[1] / own.shape[1], scan_shape[0] / own.shape[0], 1.0])
     to_photo = np.diag([photo.width / other.shape[1], photo.height / other.shape[0], 1.0])
     for variant in VARIANTS:
+        step()
         points = _matches(_variant(own, variant), _variant(other, "contrast" if variant == "inverted" else variant))
         if points is None:
             continue
-        cv2.setRNGSeed(0)
-        found, _ = cv2.findHomography(points[0], points[1], cv2.USAC_MAGSAC, 4.0, maxIters=5000, confidence=0.999)
-        if found is not None and _sane(found, own.shape):
-            matrix = to_photo @ found @ np.linalg.inv(to_grid)
-            yield GridHomography(matrix / matrix[2, 2], scan_shape, photo.width, photo.height)
+        own_at, other_at, turn = points
+        for chosen in (turn <= _UPRIGHT_DEG, np.ones(len(turn), bool)):
+            if chosen.sum() < _LEAST_MATCHES:
+                continue
+            cv2.setRNGSeed(0)
+            found, _ = cv2.findHomography(
+                own_at[chosen], other_at[chosen], cv2.USAC_MAGSAC, 4.0, maxIters=5000, confidence=0.999
+            )
+            if found is not None and _sane(found, own.shape):
+                matrix = to_photo @ found @ np.linalg.inv(to_grid)
+                yield GridHomography(matrix / matrix[2, 2], scan_shape, photo.width, photo.height)
+                break
 
 
 def straight(scan_shape, photo):
@@ -69,7 +81,8 @@ def _variant(image, name):
 
 
 def _matches(own, other):
-    """Two (N, 2) float32 arrays of points that may belong together, in a fixed order; None where too few."""
+    """Points that may belong together, (N, 2) float32 of each image, and by how many degrees (N,) one is turned against
+    the other, in a fixed order; None where too few."""
     import cv2
 
     detector = cv2.SIFT_create(_MOST_POINTS, contrastThreshold=0.02)
@@ -81,15 +94,18 @@ def _matches(own, other):
         at = np.array([point.pt for point in points], np.float32)
         # The detector's threads leave the points in no fixed order.
         order = np.lexsort((*descriptors.T[:4], at[:, 0], at[:, 1]))
-        described.append((at[order] + 0.5, descriptors[order]))
-    (own_at, own_described), (other_at, other_described) = described
+        angle = np.array([point.angle for point in points])[order]
+        described.append((at[order] + 0.5, descriptors[order], angle))
+    (own_at, own_described, own_angle), (other_at, other_described, other_angle) = described
     pairs = cv2.BFMatcher(cv2.NORM_L2).knnMatch(own_described, other_described, k=2)
     pairs = [pair[0] for pair in pairs if len(pair) == 2 and pair[0].distance < _RATIO * pair[1].distance]
     if len(pairs) < _LEAST_MATCHES:
         return None
     # MAGSAC weighs the first ones first.
     pairs.sort(key=lambda pair: (pair.distance, pair.queryIdx))
-    return own_at[[pair.queryIdx for pair in pairs]], other_at[[pair.trainIdx for pair in pairs]]
+    first, second = [pair.queryIdx for pair in pairs], [pair.trainIdx for pair in pairs]
+    turn = np.abs((own_angle[first] - other_angle[second] + 180) % 360 - 180)
+    return own_at[first], other_at[second], turn
 
 
 def _sane(matrix, shape):

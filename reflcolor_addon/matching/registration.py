@@ -5,10 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import features
-from .refinement import Tiles, fitted, surfaces, tightened
+from .refinement import fitted, tightened
 from .scan_image import TONES, ScanImage, pixel_steps, toned
 from .search import Search, map_step
-from .verification import NEEDED_AT_SCANNER, NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged
+from .tiles import Tiles, surfaces
+from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged, needed_at_least
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
@@ -135,7 +136,7 @@ def confirmed(views, photo, model):
         near, _ = refined(views, photo, model, tone, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng)
         for start in (model, near):
             candidate, proof = finely(views, photo, start, tone, rng)
-            proof = replace(proof, needed=NEEDED_AT_SCANNER)
+            proof = replace(proof, needed=needed_at_least(views.image(tone, _FINE[0])))
             if proof.rank > best.evidence.rank:
                 best = Registration(candidate, proof, "known")
         if best.accepted:
@@ -200,7 +201,7 @@ def _by_features(views, photo, tone, step):
     def candidates():
         yield features.straight(scan.shape, photo)
         for image in images:
-            yield from features.homographies(image, scan.shape, photo)
+            yield from features.homographies(image, scan.shape, photo, step)
 
     step()
     for model in candidates():
@@ -239,7 +240,7 @@ def _tried(views, photo, tone, guesses, aside, step):
                 best = Registration(model, proof, "search")
     # A camera far from its guess needs several rounds: what it sees changes while it moves.
     for _ in range(_ROUNDS):
-        if best.evidence.rank < _PROMISING or best.evidence.rank >= _CONVINCING:
+        if best.evidence.rank < _PROMISING:
             break
         step(f"{photo.name}: refining")
         model, proof = finely(views, photo, best.model, tone, rng)

@@ -60,6 +60,8 @@ class ScanImage:
     Attributes
     ----------
     shape : (h, w)
+    pixels_per_measurement : float
+        1 where the image is no finer than the grid.
     rows, cols : (h,) and (w,) int
         Row and column of the scan's grid that a pixel shows.
     reflectance : (h, w) float32
@@ -81,6 +83,7 @@ class ScanImage:
         h = max(1, round(height * vertical / self.step_deg))
         w = max(1, round(width * horizontal / self.step_deg))
         self.shape = (h, w)
+        self.pixels_per_measurement = max(1.0, vertical / self.step_deg) * max(1.0, horizontal / self.step_deg)
         self.rows = np.minimum(((np.arange(h) + 0.5) * height / h).astype(int), height - 1)
         self.cols = np.minimum(((np.arange(w) + 0.5) * width / w).astype(int), width - 1)
         chosen = np.ix_(self.rows, self.cols)

@@ -64,9 +64,7 @@ def verified(scans, photos, hand, settings, step):
     looks = [described(place.image, place.superpixels.labels, len(place.superpixels)) for place in places]
     appearance = _learnt(places, seen, looks)
     for place, own, look in zip(places, seen, looks, strict=True):
-        if own is None:
-            step(0.96, f"{place.scan.name}: comparing superpixels")
-        yield _with_unseen(place, own, look, appearance, photos, settings), place.reports, place.warnings
+        yield _with_unseen(place, own, look, appearance, photos, settings, step), place.reports, place.warnings
 
 
 def _prepared(scan, hand, settings, step):
@@ -221,10 +219,10 @@ def _learnt(places, seen, looks):
     return Appearance.learnt(descriptors, rgb, along)
 
 
-def _with_unseen(place, seen, look, appearance, photos, settings):
+def _with_unseen(place, seen, look, appearance, photos, settings, step):
     """Seeds of a scan: where it was seen, and by likeness elsewhere as far as that is sure."""
     if seen is None and appearance is None:
-        return _cautious(place, photos, settings)
+        return _cautious(place, photos, settings, step)
     count = len(place.superpixels)
     unseen = np.setdiff1d(np.arange(count), seen.segments if seen is not None else [])
     rgb, confidence = (
@@ -234,7 +232,7 @@ def _with_unseen(place, seen, look, appearance, photos, settings):
     )
     sure = confidence >= LEAST_CONFIDENCE
     if seen is None and not sure.any():
-        return _cautious(place, photos, settings)
+        return _cautious(place, photos, settings, step)
     if seen is not None:
         lost = _cut_off(place, np.concatenate([seen.segments, unseen[sure]]), unseen)
         rgb[lost & ~sure] = np.rint(seen.seeds.rgb.mean(axis=0))
@@ -270,13 +268,18 @@ def _cut_off(place, seeded, unseen):
     return ~np.isin(of_segment[unseen], of_segment[seeded])
 
 
-def _cautious(place, photos, settings):
+def _cautious(place, photos, settings, step):
     """Seeds where nothing was verified: the mean color of the photos, and more only where neighbors agree."""
     place.warnings.append(
         f"{place.scan.name}: no photo could be verified; colors are guessed from likeness, near the photos' mean color"
     )
-    own = described_scan(place.scan, place.image, settings)
-    others = [described_photo(photo.rgb, max(place.image.shape), settings) for photo in photos]
+    text = f"{place.scan.name}: comparing superpixels"
+    step(0.96, text)
+    own, others = described_scan(place.scan, place.image, settings), []
+    for photo in photos:
+        step(0.96, text)
+        others.append(described_photo(photo.rgb, max(place.image.shape), settings))
+    step(0.96, text)
     matches = hog_matches(own, others)
     rgb, confidence = cautious_colors(matches, own.centers_xy, mean_color([photo.rgb for photo in photos]))
     rows, cols = own.superpixels.centers.T

@@ -16,7 +16,7 @@ from .models import Camera, camera_axes
 _RANGE_WEIGHT = 0.7
 _CUT_MARGIN_DEG = 100
 _LEAST_OVERLAP = 0.2
-_MOST_MAPS, _MOST_SPECTRA = 400, 60
+_MOST_MAPS, _MOST_SPECTRA = 200, 8
 # Sides of transforms are rounded up to these, so that maps of like size share what is transformed once.
 _ROUND_TO = 32
 
@@ -86,7 +86,7 @@ class SphereMap:
         features = scan_features(reflectance, range_m, valid, range_weight=_RANGE_WEIGHT)
         self._layers = _layers(features, features.any(axis=-1))
         self.shape = valid.shape
-        self._spectra = {}
+        self._spectra = None, None
 
     def peaks(self, photo_maps, key, count, reach=None):
         """Return the best `Guess`es for one map of a photo.
@@ -132,9 +132,9 @@ class SphereMap:
             fft.next_fast_len(-(-(own + other) // _ROUND_TO) * _ROUND_TO, real=True)
             for own, other in zip(self.shape, patch.seen.shape, strict=True)
         )
-        if shape not in self._spectra:
-            self._spectra[shape] = fft.rfft2(self._layers, shape)
-        own, other = self._spectra[shape], photo_maps.spectra(key, shape)
+        if self._spectra[0] != shape:
+            self._spectra = shape, fft.rfft2(self._layers, shape)
+        own, other = self._spectra[1], photo_maps.spectra(key, shape)
         # Products, and the energies of both within the overlap, and the overlap itself.
         spectra = np.empty((4, *own.shape[1:]), np.complex64)
         np.einsum("cij,cij->ij", own[:-2], other[:-2], out=spectra[0])

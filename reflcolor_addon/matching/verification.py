@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .refinement import Sighting, Tiles, surfaces
+from .tiles import Sighting, Tiles, surfaces
 
 RADIUS = 8
 """Half the window that a tile is sought in, in pixels."""
@@ -20,7 +20,7 @@ _NEAR = 1.5
 _CHANCE = 0.06
 # What strength is needed where the photo was taken from the scanner's place, and where from anywhere: the more freedom
 # a model has, the more often a wrong one fits by chance.
-NEEDED_AT_SCANNER, _NEEDED_ANYWHERE = 3.2, 14.0
+_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE = 3.2, 14.0
 _ANYWHERE_SHARE = 0.2
 _ACCEPTED_MEAN = 0.85
 _ACCEPTED_TILES = 10
@@ -100,11 +100,21 @@ def evidence(scan_image, photo, model):
     )
 
 
+def needed_at_least(scan_image):
+    """Return the strength that a model without any freedom needs on a `ScanImage`.
+
+    Where the image is finer than the grid its pixels are not independent of each other, and chance does more.
+    """
+    return _NEEDED_AT_SCANNER * scan_image.pixels_per_measurement
+
+
 def _needed(scan_image, model):
+    least = needed_at_least(scan_image)
     if model.kind == "homography":
-        return NEEDED_AT_SCANNER
+        return least
     share = np.linalg.norm(model.center) / np.median(scan_image.range[scan_image.valid])
-    return float(np.interp(share, [0, _ANYWHERE_SHARE], [NEEDED_AT_SCANNER, _NEEDED_ANYWHERE]))
+    far = _NEEDED_ANYWHERE * scan_image.pixels_per_measurement
+    return float(np.interp(share, [0, _ANYWHERE_SHARE], [least, far]))
 
 
 def judged(found):
