@@ -27,7 +27,11 @@ class REFLCOLOR_OT_add_seed(SeedPlace, bpy.types.Operator):
         size=3,
         default=(0.5, 0.5, 0.5),
     )
-    photo: StringProperty(name="Photo", description="Name of a loaded photo; its color at Point is taken if given")
+    photo: StringProperty(
+        name="Photo",
+        description="Name of a loaded photo; its color at Point is taken if given",
+        options={"SKIP_SAVE"},
+    )
     photo_xy: FloatVectorProperty(
         name="Point", description="Place in the photo, in pixels from its top left corner", size=2
     )

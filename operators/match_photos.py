@@ -72,9 +72,10 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         state = obj.reflcolor
         state.matches_image = write_image(state.matches_image, f"{obj.name} Matches", picture, is_data=False)
         notes = {names[photo.name]: photo.note for photo in matching.photos}
+        verified = {names[photo.name] for photo in matching.photos if photo.verified}
         for photo in context.scene.reflcolor.photos:
             if photo.image is not None and photo.image.name in notes:
-                photo.note = notes[photo.image.name]
+                photo.note, photo.verified = notes[photo.image.name], photo.image.name in verified
         warnings = []
         for warning in matching.warnings:
             for number, name in names.items():

@@ -30,7 +30,10 @@ class Colorize(Step):
             )
             layout.label(text="Press ESC to cancel", icon="CANCEL")
             return
-        layout.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")
+        row = layout.row()
+        # Split, a button would have its text beside it.
+        row.use_property_split = False
+        row.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")
         if live_update.message():
             layout.label(text=live_update.message(), icon="ERROR", translate=False)
         row = layout.row()

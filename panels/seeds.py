@@ -81,7 +81,7 @@ class Match(Step):
         row.operator("reflcolor.lock_seeds", icon="LOCKED")
         row.operator("reflcolor.lock_seeds", text="Unlock", icon="UNLOCKED").unlock = True
         layout.prop(settings, "show_matches")
-        if obj is not None and settings.photos:
+        if obj is not None and any(photo.note and not photo.verified for photo in settings.photos):
             pairs = sum(seed.reason == "hand" and seed.photo is not None for seed in obj.reflcolor.seeds)
             column = layout.column(align=True)
             column.label(text="Not recognized? Pick 4 to 6 seeds", icon="INFO")

@@ -142,6 +142,7 @@ _LOOKS = {
 }
 
 _SETTINGS = {
+    "Whether its camera was found and stood the test": "Ob seine Kamera gefunden wurde und die Prüfung bestand",
     "All seeds where that takes about two seconds, else as many as it takes to be close to that": (
         "Alle Saatpunkte, wo das etwa zwei Sekunden braucht, sonst so viele, dass es dem nahekommt"
     ),
