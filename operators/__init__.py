@@ -112,7 +112,7 @@ def register():
         (bpy.types.Scene, properties.ReflcolorSettings),
         (bpy.types.WindowManager, leave_preview.ReflcolorWindow),
     ):
-        owner.reflcolor = bpy.props.PointerProperty(type=cls)
+        owner.reflcolor = bpy.props.PointerProperty(type=cls, override={"LIBRARY_OVERRIDABLE"})
         _undo.append((_delete_property, owner))
     for menu, module in ((bpy.types.TOPBAR_MT_file_import, import_scan), (bpy.types.TOPBAR_MT_file_export, simulate)):
         menu.append(module.draw_menu)

@@ -38,7 +38,7 @@ class REFLCOLOR_OT_add_seed(SeedPlace, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_scan(cls, context)
+        return polls.has_own_scan(cls, context)
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)

@@ -14,7 +14,7 @@ class REFLCOLOR_OT_clear_seeds(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_seeds(cls, context)
+        return polls.has_own_scan(cls, context) and polls.has_seeds(cls, context)
 
     def execute(self, context):
         polls.scan_object(context).reflcolor.seeds.clear()

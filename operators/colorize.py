@@ -24,7 +24,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_colored_seeds(cls, context)
+        return polls.has_editable_scan(cls, context) and polls.has_colored_seeds(cls, context)
 
     def prepare(self, context):
         obj = polls.scan_object(context)

@@ -9,6 +9,7 @@ from .scan_object import (
     add_colors,
     add_values,
     grid_indices,
+    own_image,
 )
 
 
@@ -24,7 +25,7 @@ def write_colorization(obj, colorization):
     add_values(obj, NEAREST_SEED, colorization.nearest_seed[place])
     state = obj.reflcolor
     name = f"{obj.name} {COLORIZED}"
-    state.colorized_image = write_image(state.colorized_image, name, colorization.rgb, is_data=False)
+    state.colorized_image = write_image(own_image(obj, "colorized_image"), name, colorization.rgb, is_data=False)
     refresh_look(obj)
 
 

@@ -19,7 +19,7 @@ class REFLCOLOR_OT_keep_gray(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_scan(cls, context)
+        return polls.has_own_scan(cls, context)
 
     def execute(self, context):
         seeds = polls.scan_object(context).reflcolor.seeds

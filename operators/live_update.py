@@ -13,7 +13,7 @@ from . import jobs, polls
 from .editors import redraw_editors
 from .images import put_pixels, stored_pixels
 from .properties import COLORIZE_NAMES, scene_settings
-from .scan_object import scan_reader
+from .scan_object import own_image, scan_reader
 from .seed_arrays import seed_arrays
 from .seed_list import seeds_of
 
@@ -134,7 +134,7 @@ def _place(obj):
 def _show(obj, result):
     state = obj.reflcolor
     size = state.cols, state.rows
-    state.preview_image = put_pixels(state.preview_image, f"{obj.name} {PREVIEW}", result.prepared, size)
+    state.preview_image = put_pixels(own_image(obj, "preview_image"), f"{obj.name} {PREVIEW}", result.prepared, size)
     _lay_on_mesh(obj)
     redraw_editors(
         {"IMAGE_EDITOR"}

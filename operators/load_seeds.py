@@ -29,7 +29,7 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_scan(cls, context)
+        return polls.has_own_scan(cls, context)
 
     def invoke(self, context, event):
         if self.properties.is_property_set("filepath"):

@@ -12,7 +12,7 @@ from .jobs import JobOperator
 from .notices import tell
 from .properties import MATCH_NAMES, MatchSettings, core_settings
 from .provenance import record_matching
-from .scan_object import scan_reader
+from .scan_object import own_image, scan_reader
 from .seed_list import append_seeds, remove_seeds, seeds_of
 from .texts import told
 
@@ -27,7 +27,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_scan(cls, context) and polls.has_photos(cls, context)
+        return polls.has_own_scan(cls, context) and polls.has_photos(cls, context)
 
     def prepare(self, context):
         obj, listed = polls.scan_object(context), context.scene.reflcolor.photos
@@ -70,7 +70,9 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         append_seeds(obj, renamed(matching.seeds.chosen(found), names))
         record_matching(obj, matching, names, self._settings, MATCH_NAMES)
         state = obj.reflcolor
-        state.matches_image = write_image(state.matches_image, f"{obj.name} Matches", picture, is_data=False)
+        state.matches_image = write_image(
+            own_image(obj, "matches_image"), f"{obj.name} Matches", picture, is_data=False
+        )
         notes = {names[photo.name]: photo.note for photo in matching.photos}
         verified = {names[photo.name] for photo in matching.photos if photo.verified}
         for photo in context.scene.reflcolor.photos:

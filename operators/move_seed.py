@@ -19,7 +19,7 @@ class REFLCOLOR_OT_move_seed(SeedChoice, SeedPlace, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_seeds(cls, context)
+        return polls.has_own_scan(cls, context) and polls.has_seeds(cls, context)
 
     def invoke(self, context, _event):
         obj = polls.scan_object(context)

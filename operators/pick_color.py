@@ -33,7 +33,7 @@ class REFLCOLOR_OT_pick_color(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_scan(cls, context)
+        return polls.has_own_scan(cls, context)
 
     @reported
     def execute(self, context):

@@ -24,7 +24,7 @@ class REFLCOLOR_OT_pick_in_view(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_scan(cls, context)
+        return polls.has_own_scan(cls, context)
 
     def invoke(self, context, event):
         obj, place = polls.scan_object(context), (event.mouse_region_x, event.mouse_region_y)

@@ -25,7 +25,7 @@ class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_scan(cls, context)
+        return polls.has_own_scan(cls, context)
 
     @reported
     def execute(self, context):

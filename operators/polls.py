@@ -22,6 +22,16 @@ def has_scan(cls, context):
     return True
 
 
+def has_own_scan(cls, context):
+    """A scan's object is active, and this file keeps what becomes of its seeds."""
+    if not has_scan(cls, context):
+        return False
+    if scan_object(context).library is not None:
+        cls.poll_message_set(tip("The scan is linked from another file; make it local or a library override first"))
+        return False
+    return True
+
+
 def has_editable_scan(cls, context):
     """A scan's object is active, and its mesh can be written to."""
     if not has_scan(cls, context):
@@ -47,7 +57,7 @@ def has_seeds(cls, context):
 
 def has_colored_seeds(cls, context):
     """A scan's object is active and a seed of it has a color."""
-    if not has_seeds(cls, context):
+    if not (has_own_scan(cls, context) and has_seeds(cls, context)):
         return False
     if not any(seed.has_color for seed in scan_object(context).reflcolor.seeds):
         cls.poll_message_set(tip("Give a seed its color first"))
@@ -57,7 +67,7 @@ def has_colored_seeds(cls, context):
 
 def has_selected_seeds(cls, context):
     """A scan's object is active and a seed of it is selected."""
-    if not has_seeds(cls, context):
+    if not (has_own_scan(cls, context) and has_seeds(cls, context)):
         return False
     if not any(seed.select for seed in scan_object(context).reflcolor.seeds):
         cls.poll_message_set(tip("Select a seed first"))

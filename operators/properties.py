@@ -80,9 +80,17 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     rows: IntProperty(name="Rows", description="Height of the scan's grid in pixels")
     cols: IntProperty(name="Columns", description="Width of the scan's grid in pixels")
     source: StringProperty(name="Source", description="File that the scan was read from")
-    seeds: CollectionProperty(name="Seeds", description="Pixels whose color is known", type=ReflcolorSeed)
+    seeds: CollectionProperty(
+        name="Seeds",
+        description="Pixels whose color is known",
+        type=ReflcolorSeed,
+        override={"LIBRARY_OVERRIDABLE", "USE_INSERTION"},
+    )
     active_seed: IntProperty(
-        name="Active Seed", description="Seed that is selected in the list", update=_seed_was_chosen
+        name="Active Seed",
+        description="Seed that is selected in the list",
+        update=_seed_was_chosen,
+        override={"LIBRARY_OVERRIDABLE"},
     )
     reflectance_image: PointerProperty(
         name="Reflectance Image", description="The scan's reflectance as a picture", type=bpy.types.Image

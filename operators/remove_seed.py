@@ -16,7 +16,7 @@ class REFLCOLOR_OT_remove_seed(SeedChoice, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_seeds(cls, context)
+        return polls.has_own_scan(cls, context) and polls.has_seeds(cls, context)
 
     @reported
     def execute(self, context):

@@ -117,6 +117,13 @@ def grid_indices(obj):
     return rows, cols
 
 
+def own_image(obj, name):
+    """Return the image that the object's state names; None where there is none or a copy of the object has the same."""
+    image = getattr(obj.reflcolor, name)
+    shared = any(other != obj and getattr(other.reflcolor, name) == image for other in bpy.data.objects)
+    return None if shared else image
+
+
 def seed_vertices(obj, rows, cols):
     """Return where pixels of the scan are in the world, and which of them have a vertex.
 

@@ -190,6 +190,61 @@ def test_a_copied_object_has_seeds_of_its_own(scan):
     assert original.reflcolor.seeds[0].row == 1
 
 
+def test_a_copy_is_colorized_into_an_image_of_its_own(scan):
+    scan.ops.reflcolor.add_seed(row=1, col=1, color=(1, 0, 0))
+    scan.ops.reflcolor.colorize()
+    original = scan.context.active_object
+    before = np.array(original.reflcolor.colorized_image.pixels[:])
+    copy = original.copy()
+    copy.data = original.data.copy()
+    scan.context.collection.objects.link(copy)
+    scan.context.view_layer.objects.active = copy
+    copy.reflcolor.seeds[0].color = (0, 0, 1)
+    scan.ops.reflcolor.colorize()
+    original = scan.data.objects[original.name]
+    assert copy.reflcolor.colorized_image != original.reflcolor.colorized_image
+    np.testing.assert_array_equal(np.array(original.reflcolor.colorized_image.pixels[:]), before)
+
+
+@pytest.fixture
+def library(scan, tmp_path):
+    """A file that holds the scan with one seed."""
+    scan.ops.reflcolor.add_seed(row=1, col=1, color=(1, 0, 0))
+    path = tmp_path / "library.blend"
+    scan.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def link(bpy, path):
+    """Link the scan of a library into an empty file; return its name."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    with bpy.data.libraries.load(str(path), link=True) as (source, target):
+        target.objects = source.objects
+    return target.objects[0]
+
+
+def test_a_linked_scan_says_that_its_seeds_are_another_files(scan, library):
+    obj = link(scan, library)
+    scan.context.collection.objects.link(obj)
+    scan.context.view_layer.objects.active = obj
+    assert len(obj.reflcolor.seeds) == 1
+    with pytest.raises(RuntimeError, match="poll"):
+        scan.ops.reflcolor.place_seed(row=2, col=2)
+    assert len(obj.reflcolor.seeds) == 1
+
+
+def test_seeds_added_to_a_library_override_are_saved_with_it(scan, library, tmp_path):
+    obj = link(scan, library).override_create(remap_local_usages=True)
+    scan.context.collection.objects.link(obj)
+    scan.context.view_layer.objects.active = obj
+    scan.ops.reflcolor.add_seed(row=2, col=3, color=(0, 1, 0))
+    path = tmp_path / "shot.blend"
+    scan.ops.wm.save_as_mainfile(filepath=str(path))
+    scan.ops.wm.open_mainfile(filepath=str(path))
+    kept = next(obj for obj in scan.data.objects if obj.library is None and obj.reflcolor.rows)
+    assert [(seed.row, seed.col) for seed in kept.reflcolor.seeds] == [(1, 1), (2, 3)]
+
+
 def test_a_deleted_photo_leaves_the_seeds_their_colors(scan):
     scan.ops.reflcolor.place_seed(row=2, col=3)
     scan.ops.reflcolor.pick_color(photo="photo.png", photo_xy=(45, 10))

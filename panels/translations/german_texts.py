@@ -17,6 +17,9 @@ _PANELS = {
     "Inputs (SHA-256)": "Eingaben (SHA-256)",
     "Maps show in Solid shading": "Karten zeigen sich in der Schattierung Solide",
     "Needs a scan": "Braucht einen Scan",
+    "The scan is linked from another file; make it local or a library override first": (
+        "Der Scan ist aus einer anderen Datei verknüpft; erst lokal machen oder eine Bibliotheksüberschreibung anlegen"
+    ),
     "The scan has no points to show": "Der Scan hat keine Punkte zu zeigen",
     "Needs seeds": "Braucht Saatpunkte",
     "Next Seed": "Nächster Saatpunkt",
