@@ -116,7 +116,7 @@ def test_a_mesh_that_lost_its_grid_says_so(seeded):
 def test_in_edit_mode_the_operator_says_to_leave_it(seeded, act):
     seeded.ops.reflcolor.colorize()
     seeded.ops.object.mode_set(mode="EDIT")
-    with pytest.raises(RuntimeError, match="[Ll]eave Edit Mode first"):
+    with pytest.raises(RuntimeError, match=r"[Ll]eave Edit Mode first"):
         getattr(seeded.ops.reflcolor, act)()
 
 
