@@ -14,13 +14,14 @@ from . import (
     provenance,
     scan,
     seeds,
+    status_bar,
     translations,
 )
 
 # In the order that they are drawn in.
 _MODULES = (scan, images, seeds, colorize, messages, compare, looking, provenance, menus, presets)
 # What draws or stands in menus, with register() and unregister() of its own.
-_SERVICES = (legend, menus, translations)
+_SERVICES = (legend, menus, status_bar, translations)
 _registered = []
 
 

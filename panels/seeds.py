@@ -7,7 +7,7 @@ from .presets import REFLCOLOR_PT_match_presets
 from .step import Step, in_both_editors
 
 # Of the list's width.
-_COLOR_SHARE = 0.19
+_COLOR_SHARE = 0.22
 # In units of the interface: confidence and lock.
 _FACTS_WIDTH = 2.6
 

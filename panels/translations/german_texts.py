@@ -17,6 +17,12 @@ _PANELS = {
     "Inputs (SHA-256)": "Eingaben (SHA-256)",
     "Maps show in Solid shading": "Karten zeigen sich in der Schattierung Solide",
     "Needs a scan": "Braucht einen Scan",
+    "Delete": "Löschen",
+    "Let Go": "Loslassen",
+    "Move or Stroke": "Ziehen oder Strich",
+    "Seed or Color": "Saatpunkt oder Farbe",
+    "Select": "Auswählen",
+    "Take Color": "Farbe nehmen",
     "The scan is linked from another file; make it local or a library override first": (
         "Der Scan ist aus einer anderen Datei verknüpft; erst lokal machen oder eine Bibliotheksüberschreibung anlegen"
     ),

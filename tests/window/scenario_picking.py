@@ -53,7 +53,7 @@ def near(window, index, row, col):
 
 def scenario_pairs_are_picked_in_both_orders(window):
     yield from open_picking(window)
-    yield from window.screenshot("layout")
+    yield from window.screenshot("layout", keep_mouse=True)
     # First the place, then the color.
     (row, col), point = PAIRS[0]
     yield from window.click(at_pixel(window, row, col))
