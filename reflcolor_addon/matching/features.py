@@ -44,12 +44,11 @@ def homographies(grid_image, scan_shape, photo, step=lambda: None):
                 continue
             cv2.setRNGSeed(0)
             found, _ = cv2.findHomography(
-                own_at[chosen], other_at[chosen], cv2.USAC_MAGSAC, 4.0, maxIters=5000, confidence=0.999
+                own_at[chosen], other_at[chosen], cv2.USAC_MAGSAC, 4.0, maxIters=20_000, confidence=0.999
             )
             if found is not None and _sane(found, own.shape):
                 matrix = to_photo @ found @ np.linalg.inv(to_grid)
                 yield GridHomography(matrix / matrix[2, 2], scan_shape, photo.width, photo.height)
-                break
 
 
 def straight(scan_shape, photo):

@@ -135,6 +135,8 @@ def confirmed(views, photo, model):
     for tone in TONES:
         near, _ = refined(views, photo, model, tone, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng)
         for start in (model, near):
+            if start is None:
+                continue
             candidate, proof = finely(views, photo, start, tone, rng)
             proof = replace(proof, needed=needed_at_least(views.image(tone, _FINE[0])))
             if proof.rank > best.evidence.rank:
