@@ -24,7 +24,7 @@ class REFLCOLOR_OT_drag(PointerOperator, bpy.types.Operator):
         hit, xy = side.hit(place), side.view.to_image(place)
         if hit is None and (not side.is_scan or tuple(xy) != clamped_point(xy, side.image.size)):
             return None
-        context.view_layer.objects.active = side.obj
+        side.activate(context)
         return StrokeSeeds(context, side, place) if hit is None else DragSeeds(side, hit, place)
 
 

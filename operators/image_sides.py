@@ -35,6 +35,11 @@ class Side:
     image: bpy.types.Image
     view: ImageView
 
+    def activate(self, context):
+        """Make the scan the active object. Where it is, Blender is told nothing: it would draw the mesh again."""
+        if context.view_layer.objects.active != self.obj:
+            context.view_layer.objects.active = self.obj
+
     def marks(self, seeds=None):
         """Return (S, 2) places of the object's seeds in the image, in its pixels from the top left, and where they are.
 

@@ -34,7 +34,7 @@ class REFLCOLOR_OT_pick(bpy.types.Operator):
         if context.view_layer.objects.get(side.obj.name) is None:
             self.report({"WARNING"}, told("{name} is not in this view layer", name=side.obj.name))
             return {"CANCELLED"}
-        context.view_layer.objects.active = side.obj
+        side.activate(context)
         hit = side.hit(place) if self.act != "sample" else None
         if self.act == "delete":
             return {"CANCELLED"} if hit is None else bpy.ops.reflcolor.remove_seed("EXEC_DEFAULT", True, index=hit)

@@ -39,7 +39,7 @@ class REFLCOLOR_OT_select_region(PointerOperator, bpy.types.Operator):
         side = event_side(context)
         if side is None or not len(side.obj.reflcolor.seeds):
             return None
-        context.view_layer.objects.active = side.obj
+        side.activate(context)
         return _Outline(side, context.region, place, self.shape, self.mode)
 
 
