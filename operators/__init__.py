@@ -12,6 +12,7 @@ from . import (
     command,
     copy_notice,
     copy_provenance,
+    delete_picked,
     delete_seeds,
     drag,
     draw_seeds,
@@ -96,6 +97,7 @@ _MODULES = (
     close_seed_picking,
     set_up_render,
     step_back,
+    delete_picked,
 )
 # What draws, listens or stands in a toolbar, with register() and unregister() of its own.
 _SERVICES = (draw_seeds, live_update, tools, wipe, wipe_handle)

@@ -2,6 +2,8 @@
 
 import bpy
 
+from .quiet import write_quietly
+
 
 def redraw_editors(kinds=frozenset({"VIEW_3D", "IMAGE_EDITOR"})):
     """Have every 3D View and Image Editor, or those of some kinds, drawn again."""
@@ -13,5 +15,9 @@ def redraw_editors(kinds=frozenset({"VIEW_3D", "IMAGE_EDITOR"})):
 
 def select_only(seeds, indices):
     """Select these of a collection of seeds, and no others."""
-    chosen = set(indices)
-    seeds.foreach_set("select", [index in chosen for index in range(len(seeds))])
+    chosen, selected = set(indices), [False] * len(seeds)
+    seeds.foreach_get("select", selected)
+    # One by one, and only those that change: set all at once, Blender would draw the mesh again.
+    for index, before in enumerate(selected):
+        if before != (index in chosen):
+            write_quietly(seeds[index], select=not before)

@@ -97,7 +97,9 @@ class SeedTool3D(bpy.types.WorkSpaceTool):
             {"type": "LEFTMOUSE", "value": "CLICK", "ctrl": True},
             {"properties": [("delete", True)]},
         ),
-        ("reflcolor.delete_seeds", {"type": "X", "value": "PRESS"}, None),
+        # Here Blender's own X and Delete would take the object.
+        ("reflcolor.delete_picked", {"type": "X", "value": "PRESS"}, None),
+        ("reflcolor.delete_picked", {"type": "DEL", "value": "PRESS"}, None),
         _LEAVE,
     )
     draw_settings = staticmethod(draw_settings)

@@ -10,6 +10,7 @@ _OPERATORS = {
     "Colorize": "Einfärben",
     "Copy Message": "Meldung kopieren",
     "Copy Provenance": "Herkunft kopieren",
+    "Delete Picked Seeds": "Ausgewählte Saatpunkte löschen",
     "Delete Seeds": "Saatpunkte löschen",
     "Drop Color": "Farbe fallen lassen",
     "Drop Color or Preview": "Farbe oder Vorschau fallen lassen",

@@ -1,6 +1,9 @@
 """German: tooltips of operators, looks and settings."""
 
 _OPERATORS = {
+    "Delete the selected seeds; where none is selected, nothing, lest the scan itself be deleted": (
+        "Die ausgewählten Saatpunkte löschen; ist keiner ausgewählt, nichts, damit nicht der Scan gelöscht wird"
+    ),
     "Add a camera that shows the whole scan, and even light, to the scene, and look through the camera; F12 renders": (
         "Eine Kamera, die den ganzen Scan zeigt, und gleichmäßiges Licht zur Szene hinzufügen und durch die Kamera "
         "sehen; F12 rendert"

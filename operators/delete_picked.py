@@ -1,0 +1,27 @@
+"""Delete the selected seeds by a key, and never anything else."""
+
+import bpy
+
+from . import polls
+from .texts import told
+
+
+class REFLCOLOR_OT_delete_picked(bpy.types.Operator):
+    """Delete the selected seeds; where none is selected, nothing, lest the scan itself be deleted"""
+
+    bl_idname = "reflcolor.delete_picked"
+    bl_label = "Delete Picked Seeds"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        return polls.has_scan(cls, context)
+
+    def invoke(self, context, _event):
+        if bpy.ops.reflcolor.delete_seeds.poll():
+            return bpy.ops.reflcolor.delete_seeds("EXEC_DEFAULT", True)
+        self.report({"INFO"}, told("Select a seed first"))
+        return {"CANCELLED"}
+
+
+classes = (REFLCOLOR_OT_delete_picked,)
