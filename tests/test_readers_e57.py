@@ -179,7 +179,14 @@ def test_index_bounds_keep_margins_without_points(tmp_path):
     assert np.array_equal(scan.valid.ravel(), keep)
 
 
-@pytest.mark.parametrize("bounds", [(3, 4), (0, 10**15), (-5, 3)])
+def test_index_bounds_keep_margins_of_most_of_the_grid(tmp_path):
+    keep = (np.mgrid[:HEIGHT, :WIDTH][1] == 1).ravel()
+    bounds = {"rowMinimum": 0, "rowMaximum": HEIGHT - 1, "columnMinimum": 0, "columnMaximum": WIDTH - 1}
+    (scan,) = read(tmp_path, {"fields": scan_fields(keep=keep), "indexBounds": bounds})
+    assert scan.shape == (HEIGHT, WIDTH)
+
+
+@pytest.mark.parametrize("bounds", [(3, 4), (0, 10**15), (0, 65535), (-5, 3)])
 def test_index_bounds_that_cannot_be_true_are_ignored(tmp_path, bounds):
     bounds = {"columnMinimum": bounds[0], "columnMaximum": bounds[1]}
     (scan,) = read(tmp_path, {"fields": scan_fields(), "indexBounds": bounds})

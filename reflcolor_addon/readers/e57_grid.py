@@ -9,6 +9,9 @@ from ..memory import require_memory
 from .grid import BYTES_PER_PIXEL, UnusableScan
 
 _CELLS_PER_POINT = 1000
+# How many times what the points span the bounds of a file may be: a little scene under much sky, but not the range of
+# the numbers that the file could have held.
+_MOST_MARGIN = 16
 """A grid emptier than this is no scan: its row or column numbers are wrong."""
 
 _LARGEST_INDEX = 2**40
@@ -36,9 +39,14 @@ class IndexGrid:
 
     def __init__(self, rows, columns, limits, where):
         self._where = where
-        first_row, height = self._extent(rows, "rowIndex", limits)
-        first_column, width = self._extent(columns, "columnIndex", limits)
-        if height * width > _CELLS_PER_POINT * (len(rows) + 1000):
+        most = _CELLS_PER_POINT * (len(rows) + 1000)
+        # The file's own bounds tell of margins without a point; not where they claim far more than the points fill.
+        for stated in (limits, {field: (None, None) for field in limits}):
+            first_row, height = self._extent(rows, "rowIndex", stated)
+            first_column, width = self._extent(columns, "columnIndex", stated)
+            if height * width <= most:
+                break
+        if height * width > most:
             raise UnusableScan(
                 f"{where}: its row and column numbers span {height:,} x {width:,} pixels for {len(rows):,} points; "
                 "export it again as a gridded E57 or as PTX"
@@ -92,7 +100,7 @@ class IndexGrid:
         first, last = int(index.min()), int(index.max())
         low, high = limits[field]
         stated = low is not None and high is not None and low <= first and last <= high
-        if stated and high - low < 2 * (last - first + 1):
+        if stated and high - low < _MOST_MARGIN * (last - first + 1):
             first, last = math.ceil(low), math.floor(high)
         return first, last - first + 1
 
