@@ -10,6 +10,7 @@ from .scan_object import (
     add_values,
     grid_indices,
     own_image,
+    show_like_reflectance,
 )
 
 
@@ -26,6 +27,7 @@ def write_colorization(obj, colorization):
     state = obj.reflcolor
     name = f"{obj.name} {COLORIZED}"
     state.colorized_image = write_image(own_image(obj, "colorized_image"), name, colorization.rgb, is_data=False)
+    show_like_reflectance(obj, state.colorized_image)
     refresh_look(obj)
 
 

@@ -13,7 +13,7 @@ from . import jobs, polls
 from .editors import redraw_editors
 from .images import put_pixels, stored_pixels
 from .properties import COLORIZE_NAMES, scene_settings
-from .scan_object import own_image, scan_reader
+from .scan_object import own_image, scan_reader, show_like_reflectance
 from .seed_arrays import seed_arrays
 from .seed_list import seeds_of
 
@@ -135,6 +135,7 @@ def _show(obj, result):
     state = obj.reflcolor
     size = state.cols, state.rows
     state.preview_image = put_pixels(own_image(obj, "preview_image"), f"{obj.name} {PREVIEW}", result.prepared, size)
+    show_like_reflectance(obj, state.preview_image)
     _lay_on_mesh(obj)
     redraw_editors(
         {"IMAGE_EDITOR"}

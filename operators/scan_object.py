@@ -56,6 +56,8 @@ def add_scan_object(context, scan, mesh_data):
     range_image, _ = normalize(scan.range, scan.valid)
     state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=False)
     state.range_image = write_image(None, f"{scan.name} Range", range_image / 255, is_data=True)
+    for image in (state.reflectance_image, state.range_image):
+        image.display_aspect = (scan.pixel_aspect, 1.0)
     add_colors(obj, GRAY, np.repeat(np.rint(luminance).astype(np.uint8)[scan.valid, None], 3, axis=1))
     if scan.color is not None:
         add_colors(obj, SCANNED, scan.color[scan.valid])
@@ -122,6 +124,13 @@ def own_image(obj, name):
     image = getattr(obj.reflcolor, name)
     shared = any(other != obj and getattr(other.reflcolor, name) == image for other in bpy.data.objects)
     return None if shared else image
+
+
+def show_like_reflectance(obj, image):
+    """Have an image of the scan's grid shown with pixels of the same shape as the reflectance image."""
+    reflectance = obj.reflcolor.reflectance_image
+    if reflectance is not None:
+        image.display_aspect = reflectance.display_aspect
 
 
 def seed_vertices(obj, rows, cols):

@@ -109,6 +109,13 @@ class Scan:
         turn = np.abs(_wrapped(np.diff(azimuth)))[np.diff(columns) == 1]
         return float(vertical), float(np.degrees(np.median(turn))) if turn.size else float("nan")
 
+    @property
+    def pixel_aspect(self):
+        """Width of a pixel over its height, as angles; 1 where they are nearly equal or cannot be measured."""
+        vertical, horizontal = self.step_deg
+        aspect = horizontal / vertical if vertical > 0 and horizontal > 0 else 1.0
+        return float(aspect) if not 0.9 < aspect < 1.1 and 0.02 < aspect < 50 else 1.0
+
     @cached_property
     def full_turn(self):
         """True where the left and the right edge of the grid are neighbors: the scan covers 360 degrees."""

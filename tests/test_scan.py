@@ -96,3 +96,9 @@ def test_what_does_not_fit_together_is_refused(changes, said):
     with pytest.raises(ScanError) as caught:
         scan_of(room_points(), **changes)
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(("step_deg", "aspect"), [((0.5, 0.5), 1.0), ((0.5, 2.0), 4.0), ((0.5, 0.125), 0.25)])
+def test_a_pixel_is_as_wide_for_its_height_as_its_angles_are(step_deg, aspect):
+    scan = scan_of(room_points(30, 40, step_deg=step_deg, top_deg=8, left_deg=13.0))
+    assert scan.pixel_aspect == pytest.approx(aspect, rel=0.02)
