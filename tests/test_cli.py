@@ -45,6 +45,15 @@ def test_colorize_writes_the_same_bytes_each_time_and_only_the_times_of_the_repo
     assert contents[0][0] == contents[0][1]
 
 
+def test_seeds_that_are_all_guesses_are_told(run_cli, cli_folder):
+    guess = {"row": 1, "col": 2, "rgb": [90, 80, 70], "reason": "appearance", "confidence": 0.2}
+    save_seeds(cli_folder, guess)
+    status, _, err = run_cli(*COLORIZE, "-o", "out.png")
+    assert (status, err.count("every color is a guess by likeness")) == (0, 1)
+    save_seeds(cli_folder, guess, {"row": 3, "col": 2, "rgb": [9, 8, 7]})
+    assert "guess" not in run_cli(*COLORIZE, "-o", "out.png")[2]
+
+
 def test_the_report_names_every_input_and_output(run_cli, cli_folder):
     (cli_folder / "photos").mkdir()
     for name in ("photos/view.png", "beside.png", "idle.png"):

@@ -120,6 +120,8 @@ def _load_seeds(arguments, session):
     seeds = Seeds.load(arguments.seeds, arguments.photo)
     if len(seeds) == 0:
         raise SeedsError(f"{arguments.seeds}: holds no seeds; give at least one pixel with a color")
+    if all(reason == "appearance" for reason in seeds.reason):
+        session.warnings.append(f"{arguments.seeds}: every color is a guess by likeness; none was seen or picked")
     for path in arguments.photo:
         read_image(path)
         if path.name not in {Path(name).name for name in seeds.photos if name}:
