@@ -88,6 +88,34 @@ def scenario_pairs_are_picked_in_both_orders(window):
         window.equal(len(window.scan.reflcolor.seeds), expected, "seeds after redo")
 
 
+def scenario_twelve_pairs_in_both_orders(window):
+    yield from open_picking(window)
+    places = [
+        ((80 + 60 * (k // 4), 60 + 80 * (k % 4)), (200 + 230 * (k % 4), 200 + 220 * (k // 4))) for k in range(12)
+    ]
+    for number, ((row, col), point) in enumerate(places):
+        if number % 2:
+            yield from window.click(at_point(window, point))
+            yield from window.click(at_pixel(window, row, col))
+            yield from window.key("ESC")
+        else:
+            yield from window.click(at_pixel(window, row, col))
+            yield from window.click(at_point(window, point))
+    found = window.scan.reflcolor.seeds
+    window.equal(len(found), 12, "seeds")
+    for number, ((row, col), point) in enumerate(places):
+        seed = found[number]
+        window.check(near(window, number, row, col), f"pair {number + 1}: the place")
+        window.check(seed.photo is not None and abs(seed.photo_xy[0] - point[0]) <= 4, f"pair {number + 1}: the point")
+    yield from window.screenshot("twelve")
+    for _ in range(20):
+        yield from window.undo()
+    window.equal(len(window.scan.reflcolor.seeds), 4, "seeds after 20 of 30 steps back")
+    for _ in range(20):
+        yield from window.undo(redo=True)
+    window.equal(len(window.scan.reflcolor.seeds), 12, "seeds after 20 steps forth")
+
+
 def scenario_seeds_are_dragged_and_deleted(window):
     yield from open_picking(window)
     for (row, col), _ in PAIRS:
