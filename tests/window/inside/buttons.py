@@ -4,6 +4,8 @@ import bpy
 
 # Buttons are 20 pixels high; the mouse goes down a region by this much.
 _STEP_PX = 18
+# At a region's lower edge the mouse takes hold of the edge, not of a button there.
+_EDGE_PX = 24
 # Where in a region's width buttons are looked for: full-width ones, the icons on the right, the left of two in a row.
 _COLUMNS = (0.5, 0.93, 0.25, 0.75)
 _SCROLLS = 12
@@ -37,10 +39,11 @@ class Buttons:
     def find_button(self, name, area=None, region="UI"):
         """Return the place of a button in a region, scrolling it if need be."""
         area = area or self.area("VIEW_3D")
-        top = self.place_in(area, 0.5, 0.5, region)
+        # At the edge: over a list of many rows the wheel would turn the list.
+        edge = self.place_in(area, 0.02, 0.5, region)
         for turns in (0, 2 * _SCROLLS, *[-3] * _SCROLLS):
             if turns:
-                yield from self.wheel(top, turns)
+                yield from self.wheel(edge, turns)
                 yield 0.1
             for column in _COLUMNS:
                 place = yield from self._look_down(name, area, region, column)
@@ -66,7 +69,7 @@ class Buttons:
     def _look_down(self, name, area, region, column):
         found = self.region(area, region)
         x, first = found.x + column * found.width, None
-        for y in range(found.y + found.height - 4, found.y, -_STEP_PX):
+        for y in range(found.y + found.height - 4, found.y + _EDGE_PX, -_STEP_PX):
             yield from self.move((x, y))
             told = self.button_under_mouse(area, region)
             if _is_button(told, name):

@@ -11,6 +11,8 @@ from inside.eyes import Eyes
 from inside.hands import Hands
 from inside.stalls import Stalls
 
+# How many times longer than it takes on a quiet machine something may take.
+_PATIENCE = 4
 EXTENSION = "bl_ext.user_default.reflcolor"
 
 
@@ -47,7 +49,7 @@ class Window(Hands, Eyes, Buttons, Stalls):
 
     def until(self, condition, seconds, what):
         """Wait until a function returns something true, and count that as a check; fail after so many seconds."""
-        limit = time.monotonic() + seconds
+        limit = time.monotonic() + _PATIENCE * seconds
         while not (found := condition()):
             if time.monotonic() > limit:
                 raise AssertionError(f"not within {seconds} s: {what}")
