@@ -7,10 +7,11 @@ import numpy as np
 
 from ..reflcolor_addon.errors import ScanError
 from ..reflcolor_addon.picking import mark_spacing
-from . import drawing, polls
+from . import drawing, polls, seed_picking
 from .image_sides import side_in
 from .scan_object import seed_vertices
 from .seed_arrays import seed_arrays
+from .tools import SeedTool3D
 
 # Radius of a mark in pixels of the screen at a scale of 1, and that below which it is never: many seeds close together
 # have smaller ones, so that they do not hide the image.
@@ -129,9 +130,15 @@ def _draw_match_lines(context, side, seeds):
         drawing.draw_lines(side.view.to_region(own[joined]), other.view.to_region(points[joined]) + offset, colors)
 
 
+def _picking_in(context):
+    """Whether seeds are picked here: elsewhere the marks of hundreds would hide the colors of the mesh."""
+    tool = context.workspace.tools.from_space_view3d_mode("OBJECT", create=False)
+    return seed_picking.is_open(context) or (tool is not None and tool.idname == SeedTool3D.bl_idname)
+
+
 def _draw_in_world():
     context = bpy.context
-    obj = polls.scan_object(context)
+    obj = polls.scan_object(context) if _picking_in(context) else None
     if obj is None or not obj.visible_get() or not context.space_data.overlay.show_overlays:
         return
     seeds = seed_arrays(obj)

@@ -90,9 +90,7 @@ def scenario_pairs_are_picked_in_both_orders(window):
 
 def scenario_twelve_pairs_in_both_orders(window):
     yield from open_picking(window)
-    places = [
-        ((80 + 60 * (k // 4), 60 + 80 * (k % 4)), (200 + 230 * (k % 4), 200 + 220 * (k // 4))) for k in range(12)
-    ]
+    places = [((80 + 60 * (k // 4), 60 + 80 * (k % 4)), (200 + 230 * (k % 4), 200 + 220 * (k // 4))) for k in range(12)]
     for number, ((row, col), point) in enumerate(places):
         if number % 2:
             yield from window.click(at_point(window, point))
