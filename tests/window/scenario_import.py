@@ -39,8 +39,9 @@ def scenario_file_import_menu(window):
     yield from window.key("M")
     yield 0.5
     yield from window.screenshot("menu", keep_mouse=True)
-    # From the first entry up: the extension's is the last.
-    yield from window.key("UP_ARROW")
+    # From the first entry up: photo, seeds and then the scan are the last.
+    for _ in range(3):
+        yield from window.key("UP_ARROW")
     yield from window.key("RET")
     yield from pick_file(window, "cones.scan.json")
     yield from imported(window)
