@@ -31,8 +31,8 @@ def head(title, *cells):
     row(*["---"] * len(cells))
 
 
-def apart(*arguments):
-    """Time and memory of a case of benchmarks/geodesic_memory.py."""
-    command = [sys.executable, "-m", "benchmarks.geodesic_memory", *map(str, arguments)]
+def apart(*arguments, module="benchmarks.geodesic_memory"):
+    """What a module prints of one case, in a process of its own."""
+    command = [sys.executable, "-m", module, *map(str, arguments)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     return json.loads(done.stdout)

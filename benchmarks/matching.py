@@ -5,7 +5,8 @@ from the seeds found, and from perfect seeds at the same places; and the gap clo
 first to the last was gone. 1 is as good as perfect seeds, 0 as the mean color, below 0 is worse than that. A photo's
 own exposure and white balance cannot be known, so "in light" is the same after three gains that bring its colors, of
 seeds and of mean alike, nearest to the true ones: what is left is from wrong places. Seconds are of processor time.
-The last group tries every real scan with every photo of something else: none may be verified.
+"unrelated" tries every real scan with every photo of something else: none may be verified. "cost" is time and memory
+for a scan of 760 x 1135 and a photo of 12 megapixels.
 """
 
 import argparse
@@ -15,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks import matching_pairs
+from benchmarks import geodesic_tables, matching_cost, matching_pairs
 from reflcolor_addon import Seeds, Settings, colorize, evaluate
 from reflcolor_addon.image_files import read_image
 from reflcolor_addon.matching import match_photos, match_site
@@ -27,7 +28,7 @@ SCENES = Path("build/scenes")
 
 def main():
     """Print the table."""
-    groups = (*matching_pairs.GROUPS, "site", "unrelated")
+    groups = (*matching_pairs.GROUPS, "site", "unrelated", "cost")
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("groups", nargs="*", metavar="GROUP", help=f"of {', '.join(groups)}; without any, all")
     parser.add_argument("--scenes", type=Path, default=SCENES, help="simulated scenes, made there where missing")
@@ -40,6 +41,8 @@ def main():
     for group in arguments.groups or groups:
         if group == "unrelated":
             unrelated()
+        elif group == "cost":
+            cost()
         elif group == "site":
             site(arguments.scenes, modes)
         else:
@@ -122,6 +125,32 @@ def unrelated():
         accepted += report.verified
         print(f"{scan.name:12} {other:14} {'ACCEPTED' if report.verified else 'refused':9} {report.note}", flush=True)
     print(f"unrelated: {accepted} of {tried} pairs accepted", flush=True)
+
+
+def cost():
+    """Print time and memory for a large scan and a large photo, verified and beside that as published."""
+    head = "scan, photo", "seconds", "processor", "as published", "ratio", "MB", "longest silence", "note"
+    geodesic_tables.head("760 x 1135 and 12 megapixels, medians of three runs", *head)
+    for case in matching_cost.CASES:
+        found = {
+            mode: [geodesic_tables.apart(*case, mode, module="benchmarks.matching_cost") for _ in range(3)]
+            for mode in MODES
+        }
+        middle = {
+            mode: {key: np.median([run[key] for run in runs]) for key in ("seconds", "processor", "bytes", "silence")}
+            for mode, runs in found.items()
+        }
+        own, published = middle["verified"], middle["paper"]
+        geodesic_tables.row(
+            ", ".join(case),
+            f"{own['seconds']:.1f}",
+            f"{own['processor']:.1f}",
+            f"{published['seconds']:.1f}",
+            f"{own['seconds'] / published['seconds']:.1f}",
+            f"{own['bytes'] / 1e6:.0f}",
+            f"{own['silence']:.1f}",
+            found["verified"][0]["note"],
+        )
 
 
 if __name__ == "__main__":

@@ -55,3 +55,22 @@ def test_as_published_extreme_settings_give_seeds(changes):
     photo = painted_room.photo(painted_room.camera(width=40, height=30))
     seeds = match_seeds(room, [photo], Settings(matching="paper", **changes))
     assert 1 <= len(seeds) <= room.valid.sum()
+
+
+def test_superpixels_lie_across_the_edge_of_a_full_turn():
+    angle = np.radians(np.arange(120) * 3.0)
+    around = np.broadcast_to(127 + 100 * np.cos(angle), (40, 120)).astype(np.float32)
+    around = around + np.random.default_rng(0).normal(0, 3, around.shape).astype(np.float32)
+    valid = np.ones(around.shape, bool)
+    found = superpixels(around, valid, segments=40, full_turn=True, **SLIC)
+    assert (found.labels >= 0).all()
+    assert (found.labels[tuple(found.centers.T)] == np.arange(len(found))).all()
+    across = np.intersect1d(found.labels[:, 0], found.labels[:, -1])
+    assert len(across)
+    for label in across:
+        cols = np.nonzero((found.labels == label).any(axis=0))[0]
+        unwrapped = np.where(cols < 60, cols + 120, cols)
+        assert np.ptp(unwrapped) < 60
+        center = found.centers[label][1]
+        assert unwrapped.min() <= (center + 120 if center < 60 else center) <= unwrapped.max()
+    assert not len(np.intersect1d(*(superpixels(around, valid, segments=40, **SLIC).labels[:, [0, -1]].T)))

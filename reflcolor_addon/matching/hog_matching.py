@@ -47,9 +47,13 @@ def square_image(scan, tone_image):
     return ScanImage(scan, tone_image, max(extent / LONGEST_SIDE, min(vertical, horizontal)))
 
 
-def described_scan(scan, image, settings):
+def scan_superpixels(scan, image, settings):
+    """Return the `Superpixels` of a scan's square image."""
+    return superpixels(image.reflectance, image.valid, **_slic(settings), full_turn=scan.full_turn)
+
+
+def described_scan(scan, image, found, settings):
     """Return the `Described` superpixels of a scan's square image; the window goes around on a full turn."""
-    found = superpixels(image.reflectance, image.valid, **_slic(settings))
     descriptors = _descriptors(image.reflectance, found.centers, settings, wrap=scan.full_turn)
     return Described(found, descriptors, None, image.shape)
 

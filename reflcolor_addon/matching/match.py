@@ -10,7 +10,7 @@ from ..image_files import read_image
 from ..seeds import Seeds
 from ..settings import Settings
 from . import site
-from .hog_matching import described_photo, described_scan, hog_matches, square_image
+from .hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .photo_image import PhotoImage
 from .scan_image import toned
 
@@ -222,7 +222,7 @@ def _picked(seeds):
 def _as_published(scan, photos, settings, step):
     step(0.05, "Superpixels of the scan")
     image = square_image(scan, toned(scan, "percentiles"))
-    own = described_scan(scan, image, settings)
+    own = described_scan(scan, image, scan_superpixels(scan, image, settings), settings)
     others = []
     for index, photo in enumerate(photos):
         step(0.3 + 0.5 * index / len(photos), f"Superpixels of {photo.name}")

@@ -7,12 +7,11 @@ import numpy as np
 from ..seeds import Seeds
 from .appearance import LEAST_CONFIDENCE, Appearance, described
 from .fallback import cautious_colors, mean_color
-from .hog_matching import described_photo, described_scan, hog_matches, square_image
+from .hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .models import Camera
 from .pairs import LEAST_PAIRS, camera_from_pairs
 from .registration import Registration, ScanViews, confirmed, register
 from .several_photos import blended, gains
-from .superpixels import superpixels
 from .transfer import seen_by
 
 _STEPS_PER_PHOTO = 40
@@ -71,8 +70,7 @@ def _prepared(scan, hand, settings, step):
     step(0.02, f"{scan.name}: superpixels")
     views = ScanViews(scan)
     image = square_image(scan, views.tone("percentiles"))
-    slic = {"segments": settings.slic_segments, "compactness": settings.slic_compactness, "sigma": settings.slic_sigma}
-    return _OnScan(scan, views, image, superpixels(image.reflectance, image.valid, **slic), hand, [], [], [], [])
+    return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), hand, [], [], [], [])
 
 
 def _counted(step, begin, share):
@@ -275,7 +273,7 @@ def _cautious(place, photos, settings, step):
     )
     text = f"{place.scan.name}: comparing superpixels"
     step(0.96, text)
-    own, others = described_scan(place.scan, place.image, settings), []
+    own, others = described_scan(place.scan, place.image, place.superpixels, settings), []
     for photo in photos:
         step(0.96, text)
         others.append(described_photo(photo.rgb, max(place.image.shape), settings))

@@ -5,6 +5,7 @@ right shifts its map. So one correlation by FFT tries every direction, on edge f
 overlaps.
 """
 
+import os
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ _LEAST_OVERLAP = 0.2
 _MOST_MAPS, _MOST_SPECTRA = 200, 8
 # Sides of transforms are rounded up to these, so that maps of like size share what is transformed once.
 _ROUND_TO = 32
+_WORKERS = os.cpu_count() or 1
 
 
 @dataclass(frozen=True)
@@ -133,14 +135,14 @@ class SphereMap:
             for own, other in zip(self.shape, patch.seen.shape, strict=True)
         )
         if self._spectra[0] != shape:
-            self._spectra = shape, fft.rfft2(self._layers, shape)
+            self._spectra = shape, fft.rfft2(self._layers, shape, workers=_WORKERS)
         own, other = self._spectra[1], photo_maps.spectra(key, shape)
         # Products, and the energies of both within the overlap, and the overlap itself.
         spectra = np.empty((4, *own.shape[1:]), np.complex64)
         np.einsum("cij,cij->ij", own[:-2], other[:-2], out=spectra[0])
         np.multiply(own[-2:-1], other[-1], out=spectra[1:2])
         np.multiply(own[-1], other[-2:], out=spectra[2:])
-        product, energy, energy_other, overlap = fft.irfft2(spectra, shape)
+        product, energy, energy_other, overlap = fft.irfft2(spectra, shape, workers=_WORKERS)
         enough = overlap > _LEAST_OVERLAP * min(patch.seen.sum(), self._layers[-1].sum())
         both = np.maximum(energy, 1e-2) * np.maximum(energy_other, 1e-2)
         scores = np.where(enough, product * np.sqrt(np.maximum(overlap, 0) / both), -1)
@@ -181,7 +183,9 @@ class PhotoMaps:
             if len(self._transformed) >= _MOST_SPECTRA:
                 self._transformed.clear()
             patch = self.at(*key)
-            self._transformed[key, shape] = np.conj(fft.rfft2(_layers(patch.features, patch.seen), shape))
+            self._transformed[key, shape] = np.conj(
+                fft.rfft2(_layers(patch.features, patch.seen), shape, workers=_WORKERS)
+            )
         return self._transformed[key, shape]
 
 

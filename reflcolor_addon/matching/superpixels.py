@@ -27,7 +27,7 @@ class Superpixels:
         return len(self.centers)
 
 
-def superpixels(image, valid, *, segments, compactness, sigma):
+def superpixels(image, valid, *, segments, compactness, sigma, full_turn=False):
     """Divide an image into segments (SLIC of Achanta et al. 2012).
 
     Parameters
@@ -40,14 +40,14 @@ def superpixels(image, valid, *, segments, compactness, sigma):
         About how many are wanted on the valid part.
     compactness, sigma : float
         As scikit-image has them, for intensities of 0..1 and CIELAB.
+    full_turn : bool
+        Whether the right edge joins the left one; segments lie across it then.
 
     Returns
     -------
     Superpixels
         Not a single one where nothing is valid.
     """
-    from skimage.segmentation import slic
-
     pixels = int(np.count_nonzero(valid))
     if pixels == 0:
         return Superpixels(np.full(valid.shape, -1, np.int32), np.zeros((0, 2), int))
@@ -57,34 +57,55 @@ def superpixels(image, valid, *, segments, compactness, sigma):
         return Superpixels(labels, np.argwhere(valid))
     wanted = int(np.clip(round(segments * valid.size / pixels), 1, valid.size))
     source = filled(image, valid) if image.ndim == 2 else image
-    if wanted == 1:
-        labels = np.zeros(valid.shape, int)
-    else:
-        labels = slic(
-            np.clip(source / 255.0, 0, 1),
-            n_segments=wanted,
-            compactness=compactness,
-            sigma=sigma,
-            start_label=0,
-            channel_axis=None if image.ndim == 2 else -1,
-        )
+    labels, across = _slic(source / 255.0, wanted, compactness, sigma, full_turn)
     kept, inverse = np.unique(labels[valid], return_inverse=True)
     numbered = np.full(valid.shape, -1, np.int32)
     numbered[valid] = inverse.reshape(-1)
-    return Superpixels(numbered, nearest_to_middles(numbered, len(kept)))
+    return Superpixels(numbered, nearest_to_middles(numbered, len(kept), np.isin(kept, across)))
 
 
-def nearest_to_middles(labels, count):
-    """Return the (count, 2) row and column of the pixel of each label that is nearest to the mean of its pixels."""
+def _slic(image, wanted, compactness, sigma, full_turn):
+    """(h, w) int labels of about ``wanted`` segments, and which of them lie across the edge of a full turn."""
+    from skimage.segmentation import slic
+
+    height, width = image.shape[:2]
+    if wanted == 1:
+        return np.zeros((height, width), int), []
+    # A segment reaches no farther than the sides of two from its center, so this much of the other end is enough.
+    margin = min(width // 2, int(4 * np.sqrt(height * width / wanted)) + 1) if full_turn else 0
+    padded = np.pad(image, ((0, 0), (margin, margin), *((0, 0),) * (image.ndim - 2)), mode="wrap")
+    labels = slic(
+        np.clip(padded, 0, 1),
+        n_segments=max(1, round(wanted * padded.shape[1] / width)),
+        compactness=compactness,
+        sigma=sigma,
+        start_label=0,
+        channel_axis=None if image.ndim == 2 else -1,
+    )
+    own, beyond = labels[:, margin : margin + width].copy(), labels[:, margin + width :]
+    across = np.intersect1d(own, beyond)
+    over = np.isin(beyond, across)
+    own[:, :margin][over] = beyond[over]
+    return own, across
+
+
+def nearest_to_middles(labels, count, across=None):
+    """Return the (count, 2) row and column of the pixel of each label that is nearest to the mean of its pixels.
+
+    ``across`` (count,) bool, optional: labels that lie across the edge of a full turn.
+    """
     rows, cols = np.nonzero(labels >= 0)
     label = labels[rows, cols]
+    width = labels.shape[1]
+    if across is not None:
+        cols = np.where(across[label] & (cols < width / 2), cols + width, cols)
     number = np.maximum(np.bincount(label, minlength=count), 1)
     middle = [(np.bincount(label, values, count) / number)[label] for values in (rows, cols)]
     squared = (rows - middle[0]) ** 2 + (cols - middle[1]) ** 2
     # The first of each label in this order is the nearest.
     order = np.lexsort((squared, label))
     first = order[np.searchsorted(label[order], np.arange(count))]
-    return np.column_stack([rows[first], cols[first]])
+    return np.column_stack([rows[first], cols[first] % width])
 
 
 def sized(image, longest):

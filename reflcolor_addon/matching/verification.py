@@ -2,7 +2,7 @@
 
 Under a wrong model a tile's best place is anywhere in its window, so that few lie in the middle by chance. The share of
 tiles in the middle, in deviations of what chance gives, is the evidence. Its threshold is set over all unrelated pairs
-of the real scans (``python -m benchmarks.matching --unrelated``); fitting the model to the same tiles is in that, too.
+of the real scans (``python -m benchmarks.matching unrelated``); fitting the model to the same tiles is in that, too.
 """
 
 from dataclasses import dataclass
