@@ -152,8 +152,8 @@ def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=N
         matchings = [_as_published(scan, opened, settings, step) for scan in scans]
     else:
         matchings = [
-            Matching(seeds, tuple(PhotoMatch(*found) for found in reports), tuple(warnings))
-            for seeds, reports, warnings in site.verified(scans, opened, hand, settings, step)
+            Matching(seeds, tuple(map(_report, opened, locations)), tuple(warnings))
+            for seeds, locations, warnings in site.verified(scans, opened, hand, settings, step)
         ]
     progress(1.0, "Matched")
     return [
@@ -217,6 +217,11 @@ def _placed(seeds, scans):
 
 def _picked(seeds):
     return replace(seeds, confidence=np.ones(len(seeds)), reason=("hand",) * len(seeds))
+
+
+def _report(photo, location):
+    model = location.registration.model if location.verified else None
+    return PhotoMatch(photo.name, location.verified, model, location.reason, location.note)
 
 
 def _as_published(scan, photos, settings, step):

@@ -44,6 +44,16 @@ class Registration:
         """Whether the evidence is enough."""
         return self.model is not None and self.evidence.accepted
 
+    @property
+    def beyond_doubt(self):
+        """Whether nothing better need be looked for."""
+        return self.accepted and self.evidence.rank >= _CONVINCING
+
+    @classmethod
+    def nothing(cls, found_by="nothing"):
+        """What there is before anything was found."""
+        return cls(None, NO_EVIDENCE, found_by)
+
 
 class ScanViews:
     """Everything of a scan that registering any photo needs, made when first asked for."""
@@ -93,7 +103,7 @@ def register(views, photo, *, step=lambda text: None):
     Registration
         The best there is, accepted or not.
     """
-    best = Registration(None, NO_EVIDENCE, "nothing")
+    best = Registration.nothing()
     if np.ptp(photo.levels[0][0]) < _LEAST_CONTRAST or not views.enough:
         return best
     search = Search(views, photo)
@@ -131,7 +141,7 @@ def confirmed(views, photo, model):
     Nothing was searched, so that hardly a wrong model can stand out by chance: the least evidence will do.
     """
     rng = np.random.default_rng(0)
-    best = Registration(None, NO_EVIDENCE, "known")
+    best = Registration.nothing("known")
     for tone in TONES:
         near, _ = refined(views, photo, model, tone, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng)
         for start in (model, near):
@@ -193,7 +203,7 @@ def finely(views, photo, model, tone, rng, *, turned_only=False):
 def _by_features(views, photo, tone, step):
     """The best homography of the scan's grid: the straight one, or one from matching features."""
     rng = np.random.default_rng(0)
-    best = Registration(None, NO_EVIDENCE, "features")
+    best = Registration.nothing("features")
     scan = views.scan
     images = [views.tone(tone)]
     vertical, horizontal = pixel_steps(scan)
@@ -231,7 +241,7 @@ def _tried(views, photo, tone, guesses, aside, step):
             tried.append(refined(views, photo, model, tone, levels, free=free, rng=rng))
         tried = [pair for pair in tried if pair[0] is not None]
         found = sorted(tried, key=lambda pair: -pair[1].rank)[:_TRIED]
-    best = Registration(None, NO_EVIDENCE, "search")
+    best = Registration.nothing("search")
     for start, promise in found[:2]:
         if promise.strength < max(_TELLING, _NEARLY * found[0][1].strength) or best.evidence.rank >= _CONVINCING:
             break

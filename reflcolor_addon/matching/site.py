@@ -8,9 +8,8 @@ from ..seeds import Seeds
 from .appearance import LEAST_CONFIDENCE, Appearance, described
 from .fallback import cautious_colors, mean_color
 from .hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
-from .models import Camera
-from .pairs import LEAST_PAIRS, camera_from_pairs
-from .registration import Registration, ScanViews, confirmed, register
+from .location import located
+from .registration import ScanViews
 from .several_photos import blended, gains
 from .transfer import seen_by
 
@@ -25,15 +24,13 @@ class _OnScan:
     views: ScanViews
     image: object
     superpixels: object
-    hand: Seeds | None
-    registrations: list
-    reports: list
+    locations: list
     warnings: list
     shown: list
 
 
 def verified(scans, photos, hand, settings, step):
-    """Yield seeds, reports (fields of `PhotoMatch`) and warnings for every scan.
+    """Yield seeds, the `Location` of each photo, and warnings for every scan.
 
     Parameters
     ----------
@@ -45,17 +42,19 @@ def verified(scans, photos, hand, settings, step):
     step : callable
         ``step(fraction, text)``; may raise to end the work.
     """
-    places = [_prepared(scan, own, settings, step) for scan, own in zip(scans, hand, strict=True)]
-    share = 0.8 / (len(photos) * len(places))
+    places = [_prepared(scan, settings, step) for scan in scans]
+    share = 0.8 / len(photos)
     for index, photo in enumerate(photos):
-        for number, place in enumerate(places):
-            begin = 0.05 + share * (index * len(places) + number)
-            _register(place, photo, places[:number], _counted(step, begin, share))
+        counted = _counted(step, 0.05 + share * index, share, len(places))
+        found = located(scans, [place.views for place in places], hand, photo, counted)
+        for place, location in zip(places, found, strict=True):
+            place.locations.append(location)
+            place.warnings += location.warnings
     for place in places:
         step(0.87, f"{place.scan.name}: transferring colors")
         place.shown = [
-            None if not report[1] else seen_by(photo, registration.model, place.image)
-            for photo, registration, report in zip(photos, place.registrations, place.reports, strict=True)
+            seen_by(photo, location.registration.model, place.image) if location.verified else None
+            for photo, location in zip(photos, place.locations, strict=True)
         ]
     photo_gains = gains([place.shown for place in places])
     seen = [_seen_seeds(place, photos, photo_gains) for place in places]
@@ -63,90 +62,25 @@ def verified(scans, photos, hand, settings, step):
     looks = [described(place.image, place.superpixels.labels, len(place.superpixels)) for place in places]
     appearance = _learnt(places, seen, looks)
     for place, own, look in zip(places, seen, looks, strict=True):
-        yield _with_unseen(place, own, look, appearance, photos, settings, step), place.reports, place.warnings
+        yield _with_unseen(place, own, look, appearance, photos, settings, step), place.locations, place.warnings
 
 
-def _prepared(scan, hand, settings, step):
+def _prepared(scan, settings, step):
     step(0.02, f"{scan.name}: superpixels")
     views = ScanViews(scan)
     image = square_image(scan, views.tone("percentiles"))
-    return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), hand, [], [], [], [])
+    return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), [], [], [])
 
 
-def _counted(step, begin, share):
-    count = 0
+def _counted(step, begin, share, scans):
+    count, expected = 0, _STEPS_PER_PHOTO * scans
 
     def counted(text):
         nonlocal count
         count += 1
-        step(begin + share * min(count / _STEPS_PER_PHOTO, 1.0), text)
+        step(begin + share * min(count / expected, 1.0), text)
 
     return counted
-
-
-def _register(place, photo, earlier, step):
-    """Find a photo's model on one scan: from pairs by hand, from a scan where it is known, or from nothing."""
-    name, scan = photo.name, place.scan
-    by_hand, note = _from_pairs(place, photo)
-    index = len(place.registrations)
-    found = None
-    if by_hand is not None:
-        step(f"{name}: refining the picked pairs")
-        found = confirmed(place.views, photo, by_hand)
-        registration = found if found.accepted else Registration(by_hand, found.evidence, "hand")
-        place.registrations.append(registration)
-        checked = f"; {found.evidence}" if found.accepted else "; nothing but the pairs speaks for it"
-        place.reports.append((name, True, registration.model, "hand", f"{note}{checked}"))
-        return
-    if note:
-        place.warnings.append(note)
-    for other in earlier:
-        known = other.registrations[index]
-        if other.reports[index][1] and known.model.kind == "pose" and not np.allclose(scan.pose, other.scan.pose):
-            step(f"{name}: trying its place on {other.scan.name}")
-            found = confirmed(place.views, photo, _carried(known.model, other.scan.pose, scan.pose))
-            if found.accepted:
-                break
-    if found is None or not found.accepted:
-        found = register(place.views, photo, step=step)
-    place.registrations.append(found)
-    if found.accepted:
-        place.reports.append((name, True, found.model, found.model.kind, f"verified: {found.evidence}"))
-        return
-    place.reports.append((name, False, None, None, f"not verified: {found.evidence}"))
-    place.warnings.append(
-        f"{scan.name}: {name} could not be verified ({found.evidence}); pick four to six pairs by hand to place it"
-    )
-
-
-def _from_pairs(place, photo):
-    """The camera from the pairs picked in this photo, and one line about it; (None, "") where there are none."""
-    if place.hand is None:
-        return None, ""
-    mine = np.array([name == photo.name for name in place.hand.photos]) & np.isfinite(place.hand.photo_xy).all(axis=1)
-    count = int(mine.sum())
-    if count == 0:
-        return None, ""
-    if count < LEAST_PAIRS:
-        return None, f"{photo.name}: {count} pairs picked by hand do not place it, at least {LEAST_PAIRS} do"
-    points = place.scan.points[place.hand.rows[mine], place.hand.cols[mine]]
-    camera, error, left_out = camera_from_pairs(points, place.hand.photo_xy[mine], photo)
-    pixels = error * max(photo.width, photo.height)
-    if camera is None:
-        return None, (
-            f"{photo.name}: no camera sees the {count} pairs picked by hand where they are"
-            f"{f' (off by {pixels:.0f} pixels)' if np.isfinite(pixels) else ''}; check them"
-        )
-    slips = f", pair {np.flatnonzero(mine)[left_out[0]] + 1} left out as wrong" if len(left_out) else ""
-    return camera, f"placed by {count} pairs picked by hand, off by {pixels:.0f} pixels{slips}"
-
-
-def _carried(camera, pose_from, pose_to):
-    """A camera in the frame of one scan brought to that of another."""
-    change = np.linalg.inv(pose_to) @ pose_from
-    center = change[:3, :3] @ camera.center + change[:3, 3]
-    rotation = camera.rotation @ change[:3, :3].T
-    return Camera(rotation, center, camera.focal_px, camera.distortion, camera.width, camera.height)
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,7 +120,7 @@ def _seen_seeds(place, photos, photo_gains):
     rows, cols = rows[order[first]], cols[order[first]]
     photo = source[rows, cols]
     best = max(float(quality.max()), 1e-6)
-    trust = np.array([_trust(registration) for registration in place.registrations])[photo]
+    trust = np.array([_trust(location.registration) for location in place.locations])[photo]
     seeds = Seeds(
         rows=place.image.rows[rows],
         cols=place.image.cols[cols],
@@ -194,7 +128,7 @@ def _seen_seeds(place, photos, photo_gains):
         photos=tuple(photos[index].name for index in photo),
         photo_xy=np.array([place.shown[p].xy[r, c] for p, r, c in zip(photo, rows, cols, strict=True)]),
         confidence=trust * np.where(behind[rows, cols], 0.3, 0.6 + 0.4 * quality[rows, cols] / best),
-        reason=tuple(place.reports[index][3] if place.reports[index][3] != "hand" else "pose" for index in photo),
+        reason=tuple("homography" if place.locations[p].reason == "homography" else "pose" for p in photo),
     )
     return _Seen(seeds, segments)
 
