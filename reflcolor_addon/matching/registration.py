@@ -1,6 +1,6 @@
 """Finding the model of one photo: candidates from features and from the search, refined, and judged."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from .refinement import fitted, tightened
 from .scan_image import TONES, ScanImage, pixel_steps, toned
 from .search import Search, map_step
 from .tiles import Tiles, surfaces
-from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged, needed_at_least
+from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged, known_before
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
@@ -148,7 +148,7 @@ def confirmed(views, photo, model):
             if start is None:
                 continue
             candidate, proof = finely(views, photo, start, tone, rng)
-            proof = replace(proof, needed=needed_at_least(views.image(tone, _FINE[0])))
+            proof = known_before(proof, views.image(tone, _FINE[0]))
             if proof.rank > best.evidence.rank:
                 best = Registration(candidate, proof, "known")
         if best.accepted:

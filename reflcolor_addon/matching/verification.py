@@ -7,7 +7,7 @@ thresholds are set over all unrelated pairs of real scans and of simulated ones 
 unrelated``); fitting the model to the same tiles is in that, too.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,7 +29,8 @@ _ANYWHERE_SHARE = 0.2
 _APART, _DISTINCT = 3.0, 0.3
 _NEEDED_OF_DISTINCT = 0.7
 _ACCEPTED_MEAN = 0.85
-_ACCEPTED_TILES = 10
+# Tiles half overlap: four in place tell what one point does, and a camera that may be anywhere goes through any four.
+_TILES_AT_SCANNER, _TILES_ANYWHERE = 10, 30
 # The tiles in place must spread over the scan as far as a third of how all tiles do.
 _ACCEPTED_SPREAD = 0.33
 
@@ -49,6 +50,8 @@ class Evidence:
         The `strength` of those tiles that have but one best place.
     needed : float
         The `strength` that is needed for a model of this freedom.
+    needed_tiles : float
+        How many tiles must be in place.
     """
 
     deviations: float
@@ -58,6 +61,7 @@ class Evidence:
     spread: float
     distinct: float
     needed: float = _NEEDED_ANYWHERE
+    needed_tiles: float = _TILES_ANYWHERE
 
     @property
     def accepted(self):
@@ -65,7 +69,7 @@ class Evidence:
         return (
             self.rank >= 1
             and self.mean >= _ACCEPTED_MEAN
-            and self.in_place >= _ACCEPTED_TILES
+            and self.in_place >= self.needed_tiles
             and self.spread >= _ACCEPTED_SPREAD
         )
 
@@ -106,25 +110,31 @@ def evidence(scan_image, photo, model):
         float(np.mean([one.mean for one in judgements])),
         middle.spread,
         float(np.mean([one.distinct for one in judgements])),
-        _needed(scan_image, model),
+        *_needed(scan_image, model),
     )
 
 
-def needed_at_least(scan_image):
-    """Return the strength that a model without any freedom needs on a `ScanImage`.
+def known_before(proof, scan_image):
+    """Return `Evidence` that need be but what a model without any freedom needs: nothing was searched for it."""
+    return replace(proof, needed=_least(scan_image), needed_tiles=_TILES_AT_SCANNER)
 
-    Where the image is finer than the grid its pixels are not independent of each other, and chance does more.
-    """
+
+def _least(scan_image):
+    # Where the image is finer than the grid its pixels are not independent of each other, and chance does more.
     return _NEEDED_AT_SCANNER * scan_image.pixels_per_measurement
 
 
 def _needed(scan_image, model):
-    least = needed_at_least(scan_image)
+    """The strength and the number of tiles that are needed for a model."""
     if model.kind == "homography":
-        return least
+        return _least(scan_image), _TILES_AT_SCANNER
     share = np.linalg.norm(model.center) / np.median(scan_image.range[scan_image.valid])
+    freedom = [0, _ANYWHERE_SHARE]
     far = _NEEDED_ANYWHERE * scan_image.pixels_per_measurement
-    return float(np.interp(share, [0, _ANYWHERE_SHARE], [least, far]))
+    return (
+        float(np.interp(share, freedom, [_least(scan_image), far])),
+        float(np.interp(share, freedom, [_TILES_AT_SCANNER, _TILES_ANYWHERE])),
+    )
 
 
 def judged(found):
