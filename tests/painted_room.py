@@ -42,21 +42,25 @@ def hits(origins, rays, seed=0):
     return points, rgb, reflectance
 
 
-def scan(rows=150, columns=220, step_deg=0.3, seed=0, name="room"):
-    """The room as a scanner at the origin measures it; ``color`` is the truth."""
+def scan(rows=150, columns=220, step_deg=0.3, seed=0, name="room", center=(0.0, 0.0, 0.0), yaw_deg=0.0):
+    """The room as a scanner measures it that stands at ``center``, turned to the left; ``color`` is the truth."""
     azimuth = np.radians((np.arange(columns) - (columns - 1) / 2) * step_deg)
     elevation = np.radians(((rows - 1) / 2 - np.arange(rows)) * step_deg - 4)
     azimuth, elevation = np.meshgrid(azimuth, elevation)
     rays = np.stack([np.sin(azimuth) * np.cos(elevation), np.cos(azimuth) * np.cos(elevation), np.sin(elevation)], -1)
-    points, rgb, reflectance = hits(np.zeros(3), rays, seed)
+    cosine, sine = np.cos(np.radians(yaw_deg)), np.sin(np.radians(yaw_deg))
+    pose = np.eye(4)
+    pose[:2, :2], pose[:3, 3] = [[cosine, -sine], [sine, cosine]], center
+    points, rgb, reflectance = hits(pose[:3, 3], rays @ pose[:3, :3].T, seed)
     valid = np.isfinite(points).all(axis=-1)
     grain = np.random.default_rng(seed).normal(0, 0.02, valid.shape)
     return Scan(
         name=name,
-        points=np.nan_to_num(points),
+        points=np.nan_to_num((points - pose[:3, 3]) @ pose[:3, :3]),
         reflectance=np.where(valid, reflectance + grain, 0),
         valid=valid,
         color=rgb,
+        pose=pose,
     )
 
 
