@@ -1,15 +1,13 @@
-"""Find seeds of a scan in the photos."""
+"""Find seeds of the selected scans in the photos."""
 
 import bpy
-import numpy as np
 
 from ..reflcolor_addon.errors import SeedsError
-from ..reflcolor_addon.matching import draw_matches, match_photos
-from ..reflcolor_addon.seeds import Seeds
+from ..reflcolor_addon.matching import draw_matches, match_site
 from . import polls
 from .images import read_pixels, write_image
 from .jobs import JobOperator
-from .notices import tell
+from .notices import tell, tell_together
 from .properties import MATCH_NAMES, MatchSettings, core_settings
 from .provenance import record_matching
 from .scan_object import own_image, scan_reader
@@ -18,7 +16,7 @@ from .texts import told
 
 
 class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
-    """Find seeds in the photos; those picked by hand and locked ones stay, and four to six picked pairs help"""
+    """Find seeds of the selected scans in the photos; hand-picked and locked ones stay, four to six pairs help"""
 
     bl_idname = "reflcolor.match_photos"
     bl_label = "Match Photos"
@@ -30,76 +28,83 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         return polls.has_own_scan(cls, context) and polls.has_photos(cls, context)
 
     def prepare(self, context):
-        obj, listed = polls.scan_object(context), context.scene.reflcolor.photos
-        self._object_name = obj.name
-        self._photo_names = [photo.image.name for photo in listed if photo.image is not None]
-        photos = [read_pixels(bpy.data.images[name]) for name in self._photo_names]
-        if any(pixels is None for pixels in photos):
+        objects, self._left_out = polls.fitting_scans(context, polls.foreign_seeds)
+        listed = context.scene.reflcolor.photos
+        self._object_names = [obj.name for obj in objects]
+        photos = [(photo.image.name, read_pixels(photo.image)) for photo in listed if photo.image is not None]
+        if any(pixels is None for _, pixels in photos):
             raise SeedsError(told("a photo of the list cannot be read; remove it and load it again"))
-        read_scan, settings = scan_reader(obj), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
+        readers, settings = list(map(scan_reader, objects)), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
         self._settings = settings
-        numbered = {name: f"photo {number}" for number, name in enumerate(self._photo_names, 1)}
-        hand = renamed(seeds_of(obj, wanted=lambda seeds: seeds.by_hand), numbered)
-        kept = renamed(seeds_of(obj, wanted=lambda seeds: ~seeds.by_hand & seeds.locked), numbered)
+        hand = [seeds_of(obj, wanted=lambda seeds: seeds.by_hand) for obj in objects]
+        kept = [seeds_of(obj, wanted=lambda seeds: ~seeds.by_hand & seeds.locked) for obj in objects]
 
         def work(progress, cancelled):
-            scan = read_scan()
-            matching = match_photos(
-                scan, photos, settings, hand=hand, kept=kept, progress=progress, cancelled=cancelled
+            scans = [read_scan() for read_scan in readers]
+            matchings = match_site(
+                scans, photos, settings, hand=hand, kept=kept, progress=progress, cancelled=cancelled
             )
-            return matching, draw_matches(scan, photos, matching.seeds)
+            pictures = [
+                draw_matches(scan, photos, matching.seeds) for scan, matching in zip(scans, matchings, strict=True)
+            ]
+            return list(zip(matchings, pictures, strict=True))
 
         return work
 
-    def finish(self, context, result):
-        matching, picture = result
-        obj = bpy.data.objects.get(self._object_name)
-        if obj is None or not obj.reflcolor.rows:
-            self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=self._object_name))
-            return
-        names = {f"photo {number}": name for number, name in enumerate(self._photo_names, 1)}
-        replaced = [i for i, seed in enumerate(obj.reflcolor.seeds) if seed.reason != "hand" and not seed.locked]
-        remove_seeds(obj, replaced)
-        locked = {(seed.row, seed.col) for seed in obj.reflcolor.seeds if seed.locked}
-        places = zip(matching.seeds.rows.tolist(), matching.seeds.cols.tolist(), strict=True)
-        found = [
-            index
-            for index, (place, reason) in enumerate(zip(places, matching.seeds.reason, strict=True))
-            if reason != "hand" and place not in locked
-        ]
-        append_seeds(obj, renamed(matching.seeds.chosen(found), names))
-        record_matching(obj, matching, names, self._settings, MATCH_NAMES)
-        state = obj.reflcolor
-        state.matches_image = write_image(
-            own_image(obj, "matches_image"), f"{obj.name} Matches", picture, is_data=False
-        )
-        notes = {names[photo.name]: photo.note for photo in matching.photos}
-        verified = {names[photo.name] for photo in matching.photos if photo.verified}
+    def finish(self, context, results):
+        done = []
+        for object_name, (matching, picture) in zip(self._object_names, results, strict=True):
+            obj = bpy.data.objects.get(object_name)
+            if obj is None or not obj.reflcolor.rows:
+                self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=object_name))
+                continue
+            take_over_seeds(obj, matching.seeds)
+            record_matching(obj, matching, self._settings, MATCH_NAMES)
+            obj.reflcolor.matches_image = write_image(
+                own_image(obj, "matches_image"), f"{obj.name} Matches", picture, is_data=False
+            )
+            self._tell(obj, matching)
+            done.append((obj, matching))
+        matches = [(obj.name, {photo.name: photo for photo in matching.photos}) for obj, matching in done]
         for photo in context.scene.reflcolor.photos:
-            if photo.image is not None and photo.image.name in notes:
-                photo.note, photo.verified = notes[photo.image.name], photo.image.name in verified
-        warnings = []
-        for warning in matching.warnings:
-            for number, name in names.items():
-                warning = warning.replace(f"{number}:", f"{name}:")
-            warnings.append(warning)
+            if photo.image is not None:
+                name = photo.image.name
+                note_photo(photo, [(scan, photos[name]) for scan, photos in matches if name in photos])
+        counts = ", ".join(f"{obj.name} ({len(matching.seeds)})" for obj, matching in done)
+        together = told("Found seeds for {count} scans: {counts}", count=len(done), counts=counts)
+        tell_together(self, [obj for obj, _ in done], together, self._left_out)
+
+    def _tell(self, obj, matching):
         said = told("Found {count} seeds for {name}", count=len(matching.seeds), name=obj.name)
-        tell(self, obj, said, warnings, details=[f"{name}: {note}" for name, note in notes.items()])
+        details = [f"{photo.name}: {photo.note}" for photo in matching.photos]
+        tell(self, obj, said, matching.warnings, details=details, one_of_several=len(self._object_names) > 1)
 
 
-def renamed(seeds, names):
-    """Return the seeds with other names of their photos; a photo that has none there counts as not known."""
-    photos = tuple(names.get(photo) for photo in seeds.photos)
-    known = np.array([photo is not None for photo in photos], bool)
-    return Seeds(
-        rows=seeds.rows,
-        cols=seeds.cols,
-        rgb=seeds.rgb,
-        photos=photos,
-        photo_xy=np.where(known[:, None], seeds.photo_xy, np.nan),
-        confidence=seeds.confidence,
-        reason=seeds.reason,
-    )
+def take_over_seeds(obj, seeds):
+    """Put the seeds that were found in place of those found before; those picked by hand and locked ones stay."""
+    replaced = [i for i, seed in enumerate(obj.reflcolor.seeds) if seed.reason != "hand" and not seed.locked]
+    remove_seeds(obj, replaced)
+    locked = {(seed.row, seed.col) for seed in obj.reflcolor.seeds if seed.locked}
+    places = zip(seeds.rows.tolist(), seeds.cols.tolist(), strict=True)
+    found = [
+        index
+        for index, (place, reason) in enumerate(zip(places, seeds.reason, strict=True))
+        if reason != "hand" and place not in locked
+    ]
+    append_seeds(obj, seeds.chosen(found))
+
+
+def note_photo(photo, matches):
+    """Note what became of a photo of the list; ``matches`` holds a scan's name and a PhotoMatch for each scan.
+
+    It is verified if it is on any scan. Where there are several, all are named, first those where it is.
+    """
+    if not matches:
+        return
+    matches = sorted(matches, key=lambda match: not match[1].verified)
+    photo.verified = matches[0][1].verified
+    notes = [f"{scan}: {found.note}" for scan, found in matches]
+    photo.note = "; ".join(notes) if len(notes) > 1 else matches[0][1].note
 
 
 classes = (REFLCOLOR_OT_match_photos,)

@@ -21,7 +21,7 @@ class ReflcolorNotice(bpy.types.PropertyGroup):
     col: IntProperty(name="Column", description="Column of the seed that is meant; -1 for none", default=-1)
 
 
-def tell(operator, obj, result, warnings, seeds=None, details=()):
+def tell(operator, obj, result, warnings, seeds=None, details=(), *, one_of_several=False):
     """Report what came of an operation, and keep it with the object in place of what was kept before.
 
     Parameters
@@ -35,11 +35,14 @@ def tell(operator, obj, result, warnings, seeds=None, details=()):
         What a warning "seed 3: ..." counts, from 1.
     details : sequence of str
         More of the result, to be read in the list only.
+    one_of_several : bool
+        Whether a warning that is reported has to name the object.
     """
     notices = obj.reflcolor.notices
     notices.clear()
     for warning in warnings:
-        operator.report({"WARNING"}, core_line(warning))
+        named = warning if not one_of_several or warning.startswith(f"{obj.name}: ") else f"{obj.name}: {warning}"
+        operator.report({"WARNING"}, core_line(named))
     operator.report({"INFO"}, result)
     for text in (result, *details):
         notices.add().text = text
@@ -53,6 +56,28 @@ def tell(operator, obj, result, warnings, seeds=None, details=()):
         notice = notices.add()
         notice.text = told("{count} more warnings", count=len(warnings) - MAX_NOTICES)
         notice.warning = True
+
+
+def tell_together(operator, objects, result, left_out):
+    """Report what came of an operation on several scans, after each was told; it ends with what was left out.
+
+    Parameters
+    ----------
+    operator : bpy.types.Operator
+    objects : sequence of bpy.types.Object
+        Those that were worked on; what was left out is kept with them.
+    result : str
+        Reported where they are several.
+    left_out : sequence of str
+        One line for each scan that was selected but not worked on.
+    """
+    if len(objects) > 1:
+        operator.report({"INFO"}, result)
+    for line in left_out:
+        operator.report({"WARNING"}, line)
+        for obj in objects:
+            notice = obj.reflcolor.notices.add()
+            notice.text, notice.warning = line, True
 
 
 def seed_of(obj, notice):

@@ -3,7 +3,7 @@
 import bpy
 
 from .scan_object import COLORIZED
-from .texts import tip
+from .texts import tip, told
 
 
 def has_window(cls, context):
@@ -24,45 +24,25 @@ def has_scan(cls, context):
 
 def has_own_scan(cls, context):
     """A scan's object is active, and this file keeps what becomes of its seeds."""
-    if not has_scan(cls, context):
-        return False
-    if scan_object(context).library is not None:
-        cls.poll_message_set(tip("The scan is linked from another file; make it local or a library override first"))
-        return False
-    return True
+    return has_scan(cls, context) and _says(cls, foreign_seeds(scan_object(context)))
 
 
 def has_editable_scan(cls, context):
     """A scan's object is active, and its mesh can be written to."""
-    if not has_scan(cls, context):
-        return False
-    if scan_object(context).data.library is not None:
-        cls.poll_message_set(tip("The mesh is linked from another file; make it local first"))
-        return False
-    if scan_object(context).mode == "EDIT":
-        cls.poll_message_set(tip("Leave Edit Mode first"))
-        return False
-    return True
+    return has_scan(cls, context) and _says(cls, closed_mesh(scan_object(context)))
 
 
 def has_seeds(cls, context):
     """A scan's object is active and has seeds."""
-    if not has_scan(cls, context):
-        return False
-    if not scan_object(context).reflcolor.seeds:
-        cls.poll_message_set(tip("Add a seed first"))
-        return False
-    return True
+    return has_scan(cls, context) and _says(cls, no_seeds(scan_object(context)))
 
 
-def has_colored_seeds(cls, context):
-    """A scan's object is active and a seed of it has a color."""
-    if not (has_own_scan(cls, context) and has_seeds(cls, context)):
+def has_scan_to_color(cls, context):
+    """The mesh of the active scan can be written to, and it or another selected scan has what colorizing needs."""
+    if not has_editable_scan(cls, context):
         return False
-    if not any(seed.has_color for seed in scan_object(context).reflcolor.seeds):
-        cls.poll_message_set(tip("Give a seed its color first"))
-        return False
-    return True
+    missing = [not_colorable(obj) for obj in scan_objects(context)]
+    return not all(missing) or _says(cls, missing[0])
 
 
 def has_selected_seeds(cls, context):
@@ -93,8 +73,59 @@ def has_photos(cls, context):
     return True
 
 
+def foreign_seeds(obj):
+    """Return what to do before this file keeps what becomes of a scan's seeds; None if it does."""
+    if obj.library is not None:
+        return tip("The scan is linked from another file; make it local or a library override first")
+    return None
+
+
+def closed_mesh(obj):
+    """Return what to do before a scan's mesh can be written to; None if it can."""
+    if obj.data.library is not None:
+        return tip("The mesh is linked from another file; make it local first")
+    return tip("Leave Edit Mode first") if obj.mode == "EDIT" else None
+
+
+def no_seeds(obj):
+    """Return what to do if a scan has no seeds, else None."""
+    return None if obj.reflcolor.seeds else tip("Add a seed first")
+
+
+def not_colorable(obj):
+    """Return what to do before a scan can be colorized; None if it can."""
+    missing = closed_mesh(obj) or foreign_seeds(obj) or no_seeds(obj)
+    if missing is None and not any(seed.has_color for seed in obj.reflcolor.seeds):
+        return tip("Give a seed its color first")
+    return missing
+
+
 def scan_object(context):
     """Return the active object if it is a scan, else None."""
-    active = context.active_object
-    is_scan = active is not None and active.type == "MESH" and active.reflcolor.rows > 0
-    return active if is_scan else None
+    return context.active_object if _is_scan(context.active_object) else None
+
+
+def scan_objects(context):
+    """Return the active scan, and after it the others that are selected; none if the active object is no scan."""
+    active = scan_object(context)
+    if active is None:
+        return []
+    return [active, *(obj for obj in context.selected_objects if obj != active and _is_scan(obj))]
+
+
+def fitting_scans(context, missing):
+    """Return those of `scan_objects` that ``missing(obj)`` has nothing to say of, and a warning for each other one."""
+    found = [(obj, missing(obj)) for obj in scan_objects(context)]
+    left_out = [told("{name} was left out: {reason}", name=obj.name, reason=reason) for obj, reason in found if reason]
+    return [obj for obj, reason in found if not reason], left_out
+
+
+def _is_scan(obj):
+    return obj is not None and obj.type == "MESH" and obj.reflcolor.rows > 0
+
+
+def _says(cls, missing):
+    """Whether nothing is missing; if something is, the poll says so."""
+    if missing:
+        cls.poll_message_set(missing)
+    return not missing

@@ -54,13 +54,10 @@ def record_seeds_file(obj, path, *, others):
     obj[_SEEDS_FILES] = json.dumps({"inputs": [*before, input_entry("seeds", Path(path))]})
 
 
-def record_matching(obj, matching, photo_names, settings, names):
-    """Keep how the object's seeds were found: the settings ``names``, and what became of each photo.
-
-    ``photo_names`` maps the names that the photos have in ``matching`` to those of their images.
-    """
+def record_matching(obj, matching, settings, names):
+    """Keep how the object's seeds were found: the settings ``names``, and what became of each photo."""
     chosen = settings.as_dict()
-    photos = [photo_entry(photo) | {"name": photo_names[photo.name]} for photo in matching.photos]
+    photos = [photo_entry(photo) for photo in matching.photos]
     obj[_MATCHED] = json.dumps({"settings": {name: chosen[name] for name in names}, "photos": photos})
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..reflcolor_addon.errors import ScanError
-from ..reflcolor_addon.georeference import local_center, origin_shift
+from ..reflcolor_addon.georeference import local_center, origin_shift, rigid_pose
 from ..reflcolor_addon.normalization import normalize
 from ..reflcolor_addon.scan import Scan
 from .images import write_image
@@ -80,6 +80,8 @@ def scan_of(obj):
 def scan_reader(obj):
     """Return a function that makes the Scan that an object was made from; it touches no bpy, a thread may call it.
 
+    The scan's pose is where the object is now, without its scale and without the kilometres of `SHIFT`.
+
     Raises
     ------
     ScanError
@@ -92,12 +94,13 @@ def scan_reader(obj):
     mesh.vertices.foreach_get("co", coordinates)
     metres = bpy.context.scene.unit_settings.scale_length
     center = np.array(mesh.get(CENTER, (0, 0, 0)))
+    pose = rigid_pose(obj.matrix_world, metres, center)
 
     def read():
         reflectance, points, valid = np.zeros(shape, np.float32), np.zeros((*shape, 3)), np.zeros(shape, bool)
         reflectance[place], valid[place] = measured, True
         points[place] = coordinates.reshape(-1, 3).astype(np.float64) * metres + center
-        return Scan(name=name, points=points, reflectance=reflectance, valid=valid)
+        return Scan(name=name, points=points, reflectance=reflectance, valid=valid, pose=pose)
 
     return read
 

@@ -29,9 +29,15 @@ def tip(template, **parts):
 
 
 def core_line(line):
-    """Return a line that the core said; it is looked up with {} for its numbers: "Seed {} of {}"."""
+    """Return a line that the core said; it is looked up with {} for its numbers: "Seed {} of {}".
+
+    Where it is not found, a name before it stays as it is: "wall: Seed 1 of 50".
+    """
     numbers = _NUMBER.findall(line)
     # Names in a line may hold braces.
     template = _NUMBER.sub("\0", line).replace("{", "{{").replace("}", "}}").replace("\0", "{}")
     found = pgettext_rpt(template)
-    return line if found == template else found.format(*numbers)
+    if found != template:
+        return found.format(*numbers)
+    name, colon, rest = line.partition(": ")
+    return name + colon + core_line(rest) if colon else line

@@ -1,10 +1,10 @@
 """Step 4: colorize, and step 5: compare with the truth."""
 
-from ..operators import jobs, live_update
+from ..operators import jobs, live_update, polls
 from ..operators.texts import label
 from ..reflcolor_addon.settings import PRESETS
 from .presets import REFLCOLOR_PT_colorize_presets
-from .step import Step, in_both_editors, in_view
+from .step import Step, draw_selected, in_both_editors, in_view
 
 
 class Colorize(Step):
@@ -36,6 +36,7 @@ class Colorize(Step):
         row.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")
         if live_update.message():
             layout.label(text=live_update.message(), icon="ERROR", translate=False)
+        draw_selected(context, layout)
         row = layout.row()
         row.scale_y = 1.5
         row.operator("reflcolor.colorize", icon="COLOR")
@@ -44,7 +45,7 @@ class Colorize(Step):
         row.operator("render.render", text="Render", icon="RENDER_STILL")
         if obj is None:
             layout.label(text="Needs a scan", icon="INFO")
-        elif not obj.reflcolor.seeds:
+        elif not any(scan.reflcolor.seeds for scan in polls.scan_objects(context)):
             layout.label(text="Needs seeds", icon="INFO")
 
 

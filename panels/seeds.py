@@ -4,7 +4,7 @@ import bpy
 
 from ..operators.texts import label
 from .presets import REFLCOLOR_PT_match_presets
-from .step import Step, in_both_editors
+from .step import Step, draw_selected, in_both_editors
 
 # Of the list's width.
 _COLOR_SHARE = 0.22
@@ -76,6 +76,7 @@ class Match(Step):
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor
         layout.prop(settings, "matching")
+        draw_selected(context, layout)
         layout.operator("reflcolor.match_photos", icon="VIEWZOOM")
         row = layout.row(align=True)
         row.operator("reflcolor.lock_seeds", icon="LOCKED")

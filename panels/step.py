@@ -3,6 +3,7 @@
 import bpy
 
 from ..operators import polls
+from ..operators.texts import label
 
 
 class Step:
@@ -16,6 +17,13 @@ class Step:
         layout.use_property_split = True
         layout.use_property_decorate = False
         self.draw_step(context, layout, polls.scan_object(context))
+
+
+def draw_selected(context, layout):
+    """Say how many scans an act is for, where it is for several."""
+    count = len(polls.scan_objects(context))
+    if count > 1:
+        layout.label(text=label("{count} scans selected", count=count), icon="MESH_GRID", translate=False)
 
 
 def in_view(step):

@@ -37,3 +37,33 @@ def local_center(scan):
     if points.size == 0 or np.abs(points).max() <= FAR:
         return np.zeros(3)
     return np.round(np.median(points, axis=0) / _ROUND_TO) * _ROUND_TO
+
+
+def rigid_pose(matrix, metres, center):
+    """Return the pose of a scan whose vertices are measured from a center and brought into the world by a matrix.
+
+    Scale is taken off, from the place as well: scans that were scaled alike keep their places to each other.
+
+    Parameters
+    ----------
+    matrix : (4, 4) float
+        Vertices to world, both in the same unit; column-vector convention.
+    metres : float
+        Of a unit.
+    center : (3,) float64
+        From `local_center`: metres, in the scanner's frame.
+
+    Returns
+    -------
+    (4, 4) float64
+        Scanner's frame to world, metres: a rotation and a translation.
+    """
+    matrix = np.asarray(matrix, np.float64)
+    scale = np.cbrt(abs(np.linalg.det(matrix[:3, :3]))) or 1.0
+    left, _, right = np.linalg.svd(matrix[:3, :3])
+    # A mirrored scan has the nearest pose of one that is not.
+    left[:, 2] *= np.sign(np.linalg.det(left @ right))
+    pose = np.eye(4)
+    pose[:3, :3] = left @ right
+    pose[:3, 3] = matrix[:3, 3] * metres / scale - pose[:3, :3] @ np.asarray(center, np.float64)
+    return pose

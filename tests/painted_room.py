@@ -42,20 +42,21 @@ def hits(origins, rays, seed=0):
     return points, rgb, reflectance
 
 
-def scan(rows=150, columns=220, step_deg=0.3, seed=0, name="room", pose=None):
-    """The room as a scanner measures it, at the origin or at a ``pose`` (4, 4); ``color`` is the truth."""
-    pose = np.eye(4) if pose is None else np.asarray(pose, float)
+def scan(rows=150, columns=220, step_deg=0.3, seed=0, name="room", center=(0.0, 0.0, 0.0), yaw_deg=0.0):
+    """The room as a scanner measures it that stands at ``center``, turned to the left; ``color`` is the truth."""
     azimuth = np.radians((np.arange(columns) - (columns - 1) / 2) * step_deg)
     elevation = np.radians(((rows - 1) / 2 - np.arange(rows)) * step_deg - 4)
     azimuth, elevation = np.meshgrid(azimuth, elevation)
     rays = np.stack([np.sin(azimuth) * np.cos(elevation), np.cos(azimuth) * np.cos(elevation), np.sin(elevation)], -1)
+    cosine, sine = np.cos(np.radians(yaw_deg)), np.sin(np.radians(yaw_deg))
+    pose = np.eye(4)
+    pose[:2, :2], pose[:3, 3] = [[cosine, -sine], [sine, cosine]], center
     points, rgb, reflectance = hits(pose[:3, 3], rays @ pose[:3, :3].T, seed)
-    points = (points - pose[:3, 3]) @ pose[:3, :3]
     valid = np.isfinite(points).all(axis=-1)
     grain = np.random.default_rng(seed).normal(0, 0.02, valid.shape)
     return Scan(
         name=name,
-        points=np.nan_to_num(points),
+        points=np.nan_to_num((points - pose[:3, 3]) @ pose[:3, :3]),
         reflectance=np.where(valid, reflectance + grain, 0),
         valid=valid,
         color=rgb,

@@ -23,7 +23,7 @@ def pose(yaw_deg, x, y):
 
 @pytest.fixture(scope="module")
 def scans():
-    return [painted_room.scan(name="first"), painted_room.scan(name="second", pose=pose(-10, 1.0, 0.4))]
+    return [painted_room.scan(name="first"), painted_room.scan(name="second", center=(1.0, 0.4, 0.0), yaw_deg=-10)]
 
 
 @pytest.fixture(scope="module")

@@ -85,6 +85,7 @@ def texts(installed_blender, monkeypatch):
     [
         ("seed 3: no return at row 12", "Saatpunkt 3: keine Messung in Zeile 12"),
         ("Seed 1 of 50", "S 1 / 50"),
+        ("wall 2: Seed 1 of 50", "wall 2: S 1 / 50"),
         ("scan {1} has 3 {holes}", "scan {1} has 3 {holes}"),
         ("garage2.ptx: line 12: expected 4 or 7 values", "garage2.ptx: line 12: expected 4 or 7 values"),
         ("", ""),

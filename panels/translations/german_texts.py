@@ -48,6 +48,7 @@ _PANELS = {
     "{count} seeds found by likeness": "{count} Saatpunkte durch Ähnlichkeit",
     "{count} seeds picked in a photo": "{count} Saatpunkte aus einem Foto gepickt",
     "{count} seeds with a color given by hand": "{count} Saatpunkte mit Farbe von Hand",
+    "{count} scans selected": "{count} Scans ausgewählt",
     "{rows} x {cols} pixels, {returns} returns": "{rows} x {cols} Pixel, {returns} Messungen",
     "{shown} of {count}": "{shown} von {count}",
 }
@@ -83,9 +84,11 @@ _MISSING = {
 
 _REPORTS = {
     "Click on {name}": "Auf {name} klicken",
+    "Colorized {count} scans: {names}": "{count} Scans eingefärbt: {names}",
     "Colorized {name} from {count} seeds": "{name} aus {count} Saatpunkten eingefärbt",
     "Copied the report to the clipboard": "Bericht in die Zwischenablage kopiert",
     "Deleted {count} seeds": "{count} Saatpunkte gelöscht",
+    "Found seeds for {count} scans: {counts}": "Saatpunkte für {count} Scans gefunden: {counts}",
     "Found {count} seeds for {name}": "{count} Saatpunkte für {name} gefunden",
     "Imported {name}": "{name} importiert",
     "Loaded {count} seeds": "{count} Saatpunkte geladen",
@@ -122,6 +125,7 @@ _REPORTS = {
     "{name} is gone; its seeds were dropped": "{name} ist nicht mehr da; die Saatpunkte wurden verworfen",
     "{name} is not in this view layer": "{name} ist nicht in dieser Ansichtsebene",
     "{name} is still running; press ESC to cancel it": "{name} läuft noch; ESC bricht es ab",
+    "{name} was left out: {reason}": "{name} wurde ausgelassen: {reason}",
     "{name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of {count} vertices (luminance apart)": (
         "{name}: CIEDE2000 {mean:.2f} im Mittel, unter {percentile:.2f} an 95 % von {count} Vertices (ohne Helligkeit)"
     ),

@@ -35,8 +35,9 @@ _OPERATORS = {
     "Move the seed that is dragged, with all that are selected if it is, or lay a line of seeds where there is none": (
         "Den gezogenen Saatpunkt versetzen, mit allen ausgewählten, wenn er es ist; wo keiner ist, eine Linie legen"
     ),
-    "Find seeds in the photos; those picked by hand and locked ones stay, and four to six picked pairs help": (
-        "Saatpunkte in den Fotos suchen; von Hand gesetzte und gesperrte bleiben, vier bis sechs gesetzte Paare helfen"
+    "Find seeds of the selected scans in the photos; hand-picked and locked ones stay, four to six pairs help": (
+        "Saatpunkte der ausgewählten Scans in den Fotos suchen; gesetzte und gesperrte bleiben, vier bis sechs Paare "
+        "helfen"
     ),
     "Go back to the workspace that was there before, and remove this one": (
         "Zum Arbeitsbereich von vorher zurückkehren und diesen entfernen"
@@ -111,8 +112,9 @@ _OPERATORS = {
         "Die Reflektanz des Scans in einem Bildeditor dieses Fensters zeigen, oder, hat es keinen, in einem neuen"
     ),
     "Show the whole message, to read and to copy": "Die ganze Meldung zeigen, zum Lesen und Kopieren",
-    "Spread the colors of the seeds over the whole scan, along paths of like reflectance and range": (
-        "Die Farben der Saatpunkte über den ganzen Scan verbreiten, auf Wegen gleicher Reflektanz und Entfernung"
+    "Spread the colors of each selected scan's seeds over all of it, along paths of like reflectance and range": (
+        "Die Farben der Saatpunkte jedes ausgewählten Scans über ihn verbreiten, auf Wegen gleicher Reflektanz und "
+        "Entfernung"
     ),
     "Take the selected photo off the list; the image stays in the file": (
         "Das ausgewählte Foto von der Liste nehmen; das Bild bleibt in der Datei"

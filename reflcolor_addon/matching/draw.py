@@ -23,7 +23,7 @@ def draw_matches(scan, photos, seeds):
     Parameters
     ----------
     scan : Scan
-    photos : sequence of paths or of (H, W, 3) uint8 sRGB
+    photos : sequence
         As given to `match_seeds`.
     seeds : Seeds
 

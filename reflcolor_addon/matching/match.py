@@ -75,8 +75,8 @@ def match_photos(scan, photos, settings=None, *, hand=None, kept=None, progress=
     Parameters
     ----------
     scan : Scan
-    photos : sequence of paths or of (H, W, 3) uint8 sRGB
-        Not calibrated, from wherever they were taken. Arrays are called "photo 1", "photo 2" ...
+    photos : sequence of paths, of (H, W, 3) uint8 sRGB, or of (name, (H, W, 3) uint8 sRGB)
+        Not calibrated, from wherever they were taken. Arrays without a name are called "photo 1", "photo 2" ...
     settings : Settings, optional
         ``matching="verified"``: each photo's camera is estimated and accepted only if it stands a test; an accepted
         photo gives a seed in every superpixel that it really shows, the others get theirs by appearance.
@@ -163,7 +163,7 @@ def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=N
 
 
 def opened_photos(photos):
-    """Return a `PhotoImage` for each photo, a path or an array.
+    """Return a `PhotoImage` for each photo, a path, an array, or a name and an array.
 
     Raises
     ------
@@ -175,7 +175,9 @@ def opened_photos(photos):
     opened = []
     for number, photo in enumerate(photos, 1):
         if isinstance(photo, np.ndarray):
-            name, rgb = f"photo {number}", photo
+            photo = (f"photo {number}", photo)
+        if isinstance(photo, tuple):
+            name, rgb = photo
             if rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.dtype != np.uint8:
                 raise ImageError(f"{name}: expected (H, W, 3) uint8, found {rgb.shape} {rgb.dtype}")
         else:
