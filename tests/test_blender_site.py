@@ -111,18 +111,19 @@ def matched(installed_blender, monkeypatch):
 
     def match_site(scans, photos, settings, *, hand, kept, progress, cancelled):
         given.update(scans=scans, hand=hand, kept=kept)
+        ((name, _),) = photos
         found = []
         for number, scan in enumerate(scans):
             rows, last = np.arange(2 - number), number == len(scans) - 1
-            seeds = module.Seeds(
+            seeds = match.Seeds(
                 rows,
                 rows + 5,
                 np.full((len(rows), 3), 100 + number),
                 confidence=rows * 0.0,
                 reason=["pose"] * len(rows),
             )
-            report = match.PhotoMatch("photo 1", last, None, "pose" if last else None, "verified" if last else "not")
-            warnings = () if last else (f"{scan.name}: photo 1 could not be verified", "photo 1: 3 pairs are too few")
+            report = match.PhotoMatch(name, last, None, "pose" if last else None, "verified" if last else "not")
+            warnings = () if last else (f"{scan.name}: {name} could not be verified", f"{name}: 3 pairs are too few")
             picked = replace(hand[number], reason=["hand"] * len(hand[number]))
             seeds = match.joined(picked, kept[number], seeds)
             found.append(match.Matching(seeds, (report,), warnings))
@@ -335,7 +336,7 @@ def test_matches_are_told_for_each_scan_with_warnings_that_name_it(site, matched
     capfd.readouterr()
     site.ops.reflcolor.match_photos()
     assert capfd.readouterr().out.splitlines() == [
-        "Warning: wall: photo 1 could not be verified",
+        "Warning: wall: view.png could not be verified",
         "Warning: wall: view.png: 3 pairs are too few",
         "Info: Found 2 seeds for wall",
         "Info: Found 1 seeds for floor",
