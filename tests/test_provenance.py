@@ -132,8 +132,8 @@ def test_the_verb_needs_blender_and_a_file(run_cli, cli_folder):
 
 def test_what_colorize_reports_is_what_the_verb_would_print(run_cli, cli_folder):
     kept = []
-    door = blender_door(write_scene=lambda *arguments: kept.append(arguments[-1]) or arguments[2][0].touch())
+    door = blender_door(write_scene=lambda results, paths, *_: kept.extend(results) or paths[0].touch())
     assert run_cli(*COLORIZE, "-o", "a.blend", "--report", "r.json", blender=door)[0] == 0
-    found = outline(parse_provenance(json.dumps(kept[0])))
+    found = outline(parse_provenance(json.dumps(kept[0][-1])))
     assert found.sources == {"hand": 2} and found.created
     assert [role for role, _, _ in found.inputs] == ["scan", "seeds"]
