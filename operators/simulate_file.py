@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..reflcolor_addon.errors import ReflcolorError, SettingsError
+from ..reflcolor_addon.errors import ReflcolorError, UsageError
 from ..reflcolor_addon.outputs import tracked
 from .simulation import Simulation, leveled_pose, photo_cameras, simulation_steps
 
@@ -21,9 +21,10 @@ def simulate_file(request, progress, written):
     Raises
     ------
     ReflcolorError
-        If the file is no scene, the station or a camera is not there, or a file cannot be written.
+        If the file is no scene, the scene has no camera to stand at, or a file cannot be written.
     UsageError
-        If two files would have the same name.
+        If the station that was named is not there, there is no camera to take photos from, or two files would have the
+        same name.
     """
     progress(0.0, f"Opening {request.scene.name}")
     try:
@@ -35,12 +36,18 @@ def simulate_file(request, progress, written):
     scene = bpy.context.scene
     bpy.context.view_layer.update()
     station, item = _station(scene, request)
+    cameras = photo_cameras(scene, item) if request.photos else ()
+    if request.photos and not cameras:
+        raise UsageError(
+            f"--photos: the scene {scene.name} of {request.scene} has no other camera to take photos from; "
+            "add one, or leave out --photos"
+        )
     simulation = Simulation(
         path=request.output,
         pose=leveled_pose(scene, station, item),
         model=request.model,
         truth=request.truth,
-        cameras=photo_cameras(scene, item) if request.photos else (),
+        cameras=cameras,
         samples=request.photo_samples,
         own_look=request.own_look,
     )
@@ -58,7 +65,9 @@ def _station(scene, request):
     kind = "object" if request.camera is None else "camera"
     if item is None or (kind == "camera" and item.type != "CAMERA"):
         there = sorted(other.name for other in scene.objects if kind == "object" or other.type == "CAMERA")
-        raise SettingsError(f"{request.scene}: there is no {kind} {name} in the scene {scene.name}; {_listed(there)}")
+        raise UsageError(
+            f"--{kind} {name}: {request.scene}: there is no {kind} {name} in the scene {scene.name}; {_listed(there)}"
+        )
     return ("ACTIVE" if kind == "object" else "CAMERA"), item
 
 

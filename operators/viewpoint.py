@@ -12,13 +12,13 @@ from ..reflcolor_addon.framing import frame
 _VIEW_SENSOR_MM = 72.0
 
 
-def view_of(obj, aspect):
-    """Return the framing View of a scan's object for a picture of an aspect (width over height)."""
-    coordinates = np.empty(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", coordinates)
-    matrix = np.array(obj.matrix_world)
-    points = coordinates.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-    return frame(points, matrix[:3, 3], aspect=aspect)
+def view_of(objects, aspect):
+    """Return the framing View of the objects of scans for a picture of an aspect (width over height).
+
+    Several are looked at from where their scanners stood on an average.
+    """
+    points = np.concatenate([_points_of(obj) for obj in objects])
+    return frame(points, np.mean([obj.matrix_world.translation for obj in objects], axis=0), aspect=aspect)
 
 
 def show_first(context, count):
@@ -44,7 +44,7 @@ def look_from_scanner(context, obj, area):
     sidebar = next(region for region in area.regions if region.type == "UI")
     covered = sidebar.width if space.show_region_ui and context.preferences.system.use_region_overlap else 0
     free = max(1, region.width - covered)
-    view = view_of(obj, free / max(1, region.height))
+    view = view_of([obj], free / max(1, region.height))
     toward = Vector(view.target - view.position)
     # The lens is that of the region's wider side, what is free of it has less.
     widest = max(region.width, region.height)
@@ -56,3 +56,11 @@ def look_from_scanner(context, obj, area):
     eye.view_rotation = toward.to_track_quat("-Z", "Y")
     eye.view_distance = view.distance_through(part)
     eye.view_location = view.target_beside(eye.view_distance, lens, covered / widest)
+
+
+def _points_of(obj):
+    """(N, 3) float64, the vertices in the world."""
+    coordinates = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", coordinates)
+    matrix = np.array(obj.matrix_world)
+    return coordinates.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]

@@ -15,21 +15,19 @@ from .scan_object import CONFIDENCE, NEAREST_SEED, add_scan_object
 from .seed_list import append_seeds
 
 
-def write_results(scan, colorization, paths, picture, progress, provenance):
-    """Write a colorized scan to every path, in the format of its suffix, and render a picture of it.
+def write_results(results, paths, picture, progress):
+    """Write colorized scans to every path, in the format of its suffix, and render a picture of them.
 
     Parameters
     ----------
-    scan : Scan
-    colorization : Colorization
+    results : iterable of (Scan, Colorization, dict)
+        The dictionary is the report; it is kept with the scan's object.
     paths : list of Path
         Files to write: .blend, .glb or .ply.
     picture : Path or None
         PNG file to render.
     progress : callable
         Called as ``progress(fraction, text)``.
-    provenance : dict
-        The report; kept with the object.
 
     Raises
     ------
@@ -38,18 +36,29 @@ def write_results(scan, colorization, paths, picture, progress, provenance):
     """
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     context = bpy.context
-    obj = add_scan_object(context, scan, grid_mesh(scan))
-    append_seeds(obj, colorization.seeds)
-    show_colorization(obj, colorization)
-    record_provenance(obj, provenance)
+    objects = []
+    for result in results:
+        progress(0.0, "Building the scene")
+        objects.append(_add_object(context, *result))
+    for obj in objects:
+        obj.select_set(True)
+    context.view_layer.objects.active = objects[0]
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
     if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
-        add_camera_and_lights(context, obj)
+        add_camera_and_lights(context, *objects)
     if picture is not None:
         steps.append((picture, lambda path: render(context, path)))
     for done, (path, write) in enumerate(steps):
         progress(done / len(steps), f"Writing {path.name}")
         _write(path, write)
+
+
+def _add_object(context, scan, colorization, report):
+    obj = add_scan_object(context, scan, grid_mesh(scan))
+    append_seeds(obj, colorization.seeds)
+    show_colorization(obj, colorization)
+    record_provenance(obj, report)
+    return obj
 
 
 def _write(path, write):
@@ -66,7 +75,7 @@ def _write_blend(path):
 
 def _write_glb(path):
     # The exporter prints its own progress, and "ERROR" for compressions that are not used here.
-    with redirect_stdout(StringIO()), redirect_stderr(StringIO()), _named_for_gltf(bpy.context.active_object.data):
+    with redirect_stdout(StringIO()), redirect_stderr(StringIO()), _named_for_gltf(bpy.context.selected_objects):
         bpy.ops.export_scene.gltf(
             filepath=str(path),
             export_format="GLB",
@@ -78,16 +87,18 @@ def _write_glb(path):
 
 
 @contextmanager
-def _named_for_gltf(mesh):
+def _named_for_gltf(objects):
     """Call attributes, within the block, as glTF calls an application's own: it drops those of other names."""
     names = {name: f"_{name.upper()}" for name in (CONFIDENCE, NEAREST_SEED)}
-    for name, exported in names.items():
-        mesh.attributes[name].name = exported
+    for obj in objects:
+        for name, exported in names.items():
+            obj.data.attributes[name].name = exported
     try:
         yield
     finally:
-        for name, exported in names.items():
-            mesh.attributes[exported].name = name
+        for obj in objects:
+            for name, exported in names.items():
+                obj.data.attributes[exported].name = name
 
 
 def _write_ply(path):

@@ -16,12 +16,13 @@ class BlenderDoor:
     version : str
         Blender's, for the report.
     write_scene : callable
-        Called as ``write_scene(scan, colorization, paths, render, progress, provenance)`` with the .blend, .glb and
-        .ply files to write, the picture to render or None, and the report without how long it took; raises
-        OutputError.
+        Called as ``write_scene(results, paths, render, progress)`` with an iterable of (scan, colorization, report
+        without how long it took), each to become an object, the .blend, .glb and .ply files to write, and the picture
+        to render or None; raises OutputError.
     simulate : callable
         Called as ``simulate(request, progress, written)`` with a `SimulationRequest`; adds every file that it wrote to
-        the list ``written``. Raises ReflcolorError, and UsageError where two files would have the same name.
+        the list ``written``. Raises ReflcolorError, and UsageError where something that was asked for is not in the
+        scene, or two files would have the same name.
     read_provenance : callable
         Called as ``read_provenance(path)`` with a .blend; returns a list of (name, text) of the objects in it that are
         scans: text is the report as JSON, or None. Raises ReflcolorError.

@@ -53,7 +53,8 @@ def main(argv, *, prog="python -m reflcolor_addon", blender=None):
             status = interruption.exit_status if interruption.requested() else BAD_INPUT
             message = str(error)
         except MemoryError:
-            status, message = BAD_INPUT, f"{arguments.input}: not enough memory for a scan of this size"
+            files = arguments.input if isinstance(arguments.input, list) else [arguments.input]
+            status, message = BAD_INPUT, f"{', '.join(map(str, files))}: not enough memory for a scan of this size"
     if session.written:
         message += f"; already written: {', '.join(map(str, session.written))}"
     console.error(message)

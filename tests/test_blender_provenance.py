@@ -145,10 +145,12 @@ def test_the_panel_and_the_clipboard_have_the_same_report(colorized):
 def test_the_command_prints_it_from_a_file(colorized, blender_command, tmp_path):
     expected = report(colorized)
     colorized.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"), compress=True)
-    done = blender_command("provenance", tmp_path / "kept.blend", "--object", "wall")
+    done = blender_command("provenance", tmp_path / "kept.blend", "--object", "wall", "--json")
     assert done.returncode == 0, done.stderr
     document = json.loads(done.stdout[done.stdout.index("{") :])
     assert document["objects"] == [{"name": "wall", "provenance": expected}]
+    done = blender_command("provenance", tmp_path / "kept.blend")
+    assert f"SHA-256 {expected['inputs'][0]['sha256']}" in done.stdout, done.stderr
     (tmp_path / "bad.blend").write_text("no scene")
     done = blender_command("provenance", tmp_path / "bad.blend")
     assert done.returncode == 1

@@ -33,6 +33,13 @@ def test_colorize_passes_every_setting_on(run_cli, cli_folder, given, nearest):
     assert json.loads((cli_folder / "report.json").read_text(encoding="utf-8"))["settings"] == settings.as_dict()
 
 
+@pytest.mark.parametrize("preset", ["enhanced", "ENHANCED"])
+def test_a_preset_is_known_in_any_case(run_cli, cli_folder, preset):
+    assert run_cli(*COLORIZE, "--preset", preset, "-o", "out.png", "--report", "report.json")[0] == 0
+    used = json.loads((cli_folder / "report.json").read_text(encoding="utf-8"))["settings"]
+    assert used == Settings.preset("Enhanced").as_dict()
+
+
 def test_colorize_writes_the_same_bytes_each_time_and_only_the_times_of_the_report_vary(run_cli, cli_folder):
     contents = []
     for _ in range(2):
@@ -205,7 +212,8 @@ def test_real_scans_are_described(run_cli, data_dir):
 def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder):
     calls = []
 
-    def write_scene(scan, colorization, paths, render, progress, provenance):
+    def write_scene(results, paths, render, progress):
+        ((scan, colorization, provenance),) = results
         progress(0.5, "Writing")
         calls.append((scan.name, colorization.rgb.shape, paths, render, provenance))
         for path in (*paths, render):
@@ -248,7 +256,7 @@ def test_without_blender_what_needs_it_is_wrong_usage(run_cli, cli_folder, argum
 
 
 def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cli_folder):
-    def write_scene(_scan, _colorization, paths, _render, _progress, _provenance):
+    def write_scene(_results, paths, _render, _progress):
         paths[0].write_bytes(b"scene")
         raise OutputError("b.glb: cannot be written (No space left on device)")
 

@@ -30,7 +30,7 @@ def interrupting(monkeypatch):
 
             return colorize(scan, seeds, settings, progress=told, cancelled=cancelled)
 
-        monkeypatch.setattr("reflcolor_addon.commands.colorize.colorize", interrupted)
+        monkeypatch.setattr("reflcolor_addon.commands.results.colorize", interrupted)
 
     return arrange
 
@@ -57,7 +57,7 @@ def test_the_handlers_of_signals_are_put_back(run_cli, cli_folder, interrupting,
 
 
 def test_an_interruption_while_blender_writes_ends_it_and_names_what_is_there(run_cli):
-    def write_scene(_scan, _colorization, paths, _render, progress, _provenance):
+    def write_scene(_results, paths, _render, progress):
         paths[0].write_bytes(b"scene")
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(Cancelled):

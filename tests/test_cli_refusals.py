@@ -13,6 +13,8 @@ from reflcolor_addon import read_scans
 from reflcolor_addon.image_files import write_png
 from reflcolor_addon.writers import write_e57
 
+SEEDS = ("seeds", "garage.ptx", "--photo", "view.png")
+
 # Wrong usage
 
 
@@ -27,6 +29,13 @@ from reflcolor_addon.writers import write_e57
         (COLORIZE, "-o"),
         ((*COLORIZE, "-o", "out.png", "--alpha", "x"), "--alpha: invalid float value: 'x'"),
         ((*COLORIZE, "-o", "out.png", "--alpha"), "--alpha"),
+        ((*COLORIZE, "-o", "out.png", "--alpha", "-1"), "--alpha: expected a number from 0.1 to 64, found -1"),
+        ((*COLORIZE, "-o", "out.png", "--alpha", "nan"), "--alpha: expected a number from 0.1"),
+        ((*COLORIZE, "-o", "out.png", "--beta", "inf"), "--beta: expected a number from 0 to"),
+        ((*COLORIZE, "-o", "out.png", "--hog-window", "9"), "--hog-window: expected a whole number from 16 to 256"),
+        ((*COLORIZE, "-o", "out.png", "--nearest", "0"), 'expected "all", "auto" or a whole number from 1 to 1024'),
+        ((*COLORIZE, "-o", "out.png", "--nearest", "few"), "a whole number from 1 to 1024, found few"),
+        ((*COLORIZE, "-o", "out.png", "--preset", "poster"), "--preset: invalid choice: 'poster'"),
         ((*COLORIZE, "-o", "out.png", "--neighbors", "6"), "--neighbors"),
         ((*COLORIZE, "-o", "out.png", "--color-space", "rgb"), "--color-space"),
         ((*COLORIZE, "-o", "out.gif"), "out.gif: the suffix tells what to write; expected one of .png, .blend"),
@@ -36,6 +45,9 @@ from reflcolor_addon.writers import write_e57
         ((*COLORIZE, "-o", "out.png", "--report", "seeds.json"), "--report seeds.json: is an input"),
         ((*COLORIZE, "-o", "out.png", "--report", "./garage.ptx"), "is an input"),
         ((*COLORIZE, "--photo", "view.png", "-o", "view.png"), "-o view.png: is an input"),
+        ((*SEEDS, "-o", "seeds.txt"), "-o seeds.txt: expected a file that ends in .json"),
+        ((*SEEDS, "-o", "new.json", "--matches", "new.jpg"), "--matches new.jpg: expected a file that ends in .png"),
+        ((*SEEDS, "-o", "new.json", "--slic-segments", "0"), "--slic-segments: expected a whole number from 1"),
     ],
     ids=lambda value: "" if isinstance(value, str) else " ".join(value[1:]),
 )
@@ -110,7 +122,11 @@ SCAN_CASES = {
     "no returns": (with_ptx(lambda lines: lines[:10] + ["0 0 0 0.5"] * 60), "no pixel with a return"),
 }
 CASES = SCAN_CASES | {
-    "seed outside the grid": (with_seeds({"row": 6, "col": 0, "rgb": [1, 2, 3]}), "rows 0 to 5, columns 0 to 9"),
+    "seed outside the grid": (
+        with_seeds({"row": 6, "col": 0, "rgb": [1, 2, 3]}),
+        "seeds.json: seed 1: row 6, column 0 is outside the scan's grid (rows 0 to 5, columns 0 to 9); "
+        "expected seeds of the scan garage",
+    ),
     "negative seed": (with_seeds({"row": 0, "col": -1, "rgb": [1, 2, 3]}), "column -1 is outside"),
     "no seeds": (with_seeds(), "no seeds"),
     "seeds without color": (with_seeds({"row": 0, "col": 0}), "seeds.json: seed 1: expected a color"),
@@ -153,11 +169,6 @@ def test_an_e57_with_a_bad_checksum_is_said_in_one_line(run_cli, cli_folder):
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        (("--alpha", "-1"), "alpha: expected a number from 0.1 to 64, found -1"),
-        (("--alpha", "0"), "alpha: expected a number from 0.1"),
-        (("--alpha", "nan"), "alpha: expected a number from 0.1"),
-        (("--beta", "-0.5"), "beta: expected a number from 0 to"),
-        (("--beta", "inf"), "beta: expected a number from 0 to"),
         (("--photo", "gone.jpg"), "gone.jpg: no such image"),
         (("--photo", "seeds.json"), "seeds.json: is not an image"),
         (("--photo", "view.png"), "view.png"),
@@ -199,7 +210,7 @@ def test_running_out_of_memory_is_said_in_one_line(run_cli, cli_folder, monkeypa
     def exhausted(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr("reflcolor_addon.commands.colorize.colorize", exhausted)
+    monkeypatch.setattr("reflcolor_addon.commands.results.colorize", exhausted)
     assert_refused(run_cli(*COLORIZE, "-o", "out.png"), 1, "garage.ptx: not enough memory")
     assert not (cli_folder / "out.png").exists()
 
@@ -222,10 +233,18 @@ def test_bad_input_ends_a_process_with_one_line(cli_folder):
     assert_refused((done.returncode, done.stdout, done.stderr), 1, "view.jpg")
 
 
+def test_seeds_by_hand_of_another_scan_are_refused_by_their_file(run_cli, cli_folder):
+    write_png(cli_folder / "view.png", np.zeros((20, 20, 3), np.uint8))
+    save_seeds(cli_folder, {"row": 99, "col": 0, "rgb": [1, 2, 3]})
+    outcome = run_cli(*SEEDS, "--hand", "seeds.json", "-o", "new.json")
+    assert_refused(outcome, 1, "seeds.json: seed 1: row 99, column 0 is outside", "expected seeds of the scan garage")
+    assert not (cli_folder / "new.json").exists()
+
+
 def test_a_defect_is_not_hidden(run_cli, monkeypatch):
     def broken(*_, **__):
         raise ZeroDivisionError
 
-    monkeypatch.setattr("reflcolor_addon.commands.colorize.colorize", broken)
+    monkeypatch.setattr("reflcolor_addon.commands.results.colorize", broken)
     with pytest.raises(ZeroDivisionError):
         run_cli(*COLORIZE, "-o", "out.png")

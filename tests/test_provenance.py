@@ -98,8 +98,8 @@ def printed(run_cli, cli_folder):
     return run
 
 
-def test_the_verb_prints_every_scan_and_warns_of_those_without(printed, report):
-    status, out, err = printed({"wall": json.dumps(report), "old": None})
+def test_the_verb_prints_as_json_every_scan_and_warns_of_those_without(printed, report):
+    status, out, err = printed({"wall": json.dumps(report), "old": None}, "--json")
     document = json.loads(out)
     assert status == 0
     assert (document["format"], document["version"], document["file"]) == ("reflcolor-provenance", 1, "x.blend")
@@ -108,8 +108,44 @@ def test_the_verb_prints_every_scan_and_warns_of_those_without(printed, report):
 
 
 def test_the_verb_prints_one_object_where_it_is_named(printed, report):
-    _, out, err = printed({"wall": json.dumps(report), "old": None}, "--object", "wall")
+    _, out, err = printed({"wall": json.dumps(report), "old": None}, "--object", "wall", "--json")
     assert [entry["name"] for entry in json.loads(out)["objects"]] == ["wall"] and err == ""
+
+
+def test_without_json_it_can_be_read_at_a_glance(printed, report):
+    report["photos"] = [{"name": "b.jpg", "verified": True, "reason": "pose", "note": "verified: 90 % agree"}]
+    status, out, err = printed({"wall": json.dumps(report), "roof": json.dumps(report), "old": None})
+    assert status == 0 and err.startswith("warning: old has no provenance")
+    wall, roof = out.rstrip("\n").split("\n\n")
+    head, *lines = wall.splitlines()
+    assert head == "wall" and roof.splitlines() == ["roof", *lines]
+    said = [line.strip() for line in lines]
+    for line in (
+        "scan          small, scan 1 of its file",
+        "6 rows x 10 columns, 60 returns",
+        "result        60 pixels colored, 0 left gray",
+        "seeds         2 photo: picked in a photo",
+        "1 pose: found by a photo's camera",
+        "photos        b.jpg: verified: 90 % agree",
+        "settings      alpha 6.0",
+        "nearest all",
+        f"versions      reflcolor {report['versions']['reflcolor']}",
+        "inputs        scan w.ptx, 3 bytes",
+        f"SHA-256 {'ab' * 32}",
+        "photo b.jpg",
+        "SHA-256 not kept",
+    ):
+        assert line in said
+    low, high = report["normalization"]["range_m"]
+    assert f"range {low:.6g} to {high:.6g} m" in said
+
+
+@pytest.mark.parametrize("name", ["scan", "settings", "photos", "normalization", "warnings"])
+@pytest.mark.parametrize("value", [None, 3, [1], [{}], {}])
+def test_a_spoiled_report_is_one_line_or_less_of_a_summary(printed, report, name, value):
+    outcome = printed({"wall": json.dumps(report | {name: value})})
+    if outcome[0]:
+        assert_refused(outcome, 1, "x.blend: wall: the provenance is incomplete")
 
 
 @pytest.mark.parametrize(
@@ -132,8 +168,8 @@ def test_the_verb_needs_blender_and_a_file(run_cli, cli_folder):
 
 def test_what_colorize_reports_is_what_the_verb_would_print(run_cli, cli_folder):
     kept = []
-    door = blender_door(write_scene=lambda *arguments: kept.append(arguments[-1]) or arguments[2][0].touch())
+    door = blender_door(write_scene=lambda results, paths, *_: kept.extend(results) or paths[0].touch())
     assert run_cli(*COLORIZE, "-o", "a.blend", "--report", "r.json", blender=door)[0] == 0
-    found = outline(parse_provenance(json.dumps(kept[0])))
+    found = outline(parse_provenance(json.dumps(kept[0][-1])))
     assert found.sources == {"hand": 2} and found.created
     assert [role for role, _, _ in found.inputs] == ["scan", "seeds"]

@@ -51,9 +51,19 @@ SMALL = ("--rows", "24", "--columns", "36", "--range-noise", "0", "--beam-deg", 
 @pytest.fixture(scope="module")
 def yard(tmp_path_factory):
     """The scene in a file."""
-    folder = tmp_path_factory.mktemp("yard")
+    return made(MAKE_SCENE, tmp_path_factory.mktemp("yard"))
+
+
+@pytest.fixture(scope="module")
+def lonely_yard(tmp_path_factory):
+    """The same without the camera "Aside"."""
+    lines = [line for line in MAKE_SCENE.splitlines() if '"Aside"' not in line]
+    return made("\n".join(lines), tmp_path_factory.mktemp("lonely"))
+
+
+def made(source, folder):
     script, path = folder / "make.py", folder / "yard.blend"
-    script.write_text(MAKE_SCENE)
+    script.write_text(source)
     subprocess.run([sys.executable, script, path], check=True, capture_output=True, timeout=120)
     return path
 
@@ -103,8 +113,15 @@ def test_the_scanner_stands_at_an_object_and_turns_all_around(blender_command, y
 )
 def test_a_station_that_is_not_in_the_scene_is_said_in_one_line(blender_command, yard, tmp_path, options, part):
     done = blender_command("simulate", yard, "-o", tmp_path / "yard.ptx", *options)
-    assert (done.returncode, done.stderr.count("\n")) == (1, 1)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert part in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_photos_without_another_camera_are_refused_before_the_work(blender_command, lonely_yard, tmp_path):
+    done = blender_command("simulate", lonely_yard, "-o", tmp_path / "yard.ptx", *SMALL, "--photos")
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "--photos: the scene Scene of" in done.stderr and "has no other camera to take photos from" in done.stderr
     assert not list(tmp_path.iterdir())
 
 
@@ -185,14 +202,14 @@ def test_every_option_reaches_the_scanner(asked):
         (("--plain-photos",), 2, "--plain-photos says how photos are taken; give --photos, too"),
         (("--photo-samples", "3"), 2, "--photo-samples says how"),
         (("-o", "yard.obj"), 2, "yard.obj: the suffix tells what to write; expected one of .ptx, .e57, .scan.json"),
-        (("--rows", "0"), 1, "rows and columns: expected 1 or more"),
-        (("--rows", "9" * 9), 1, "rows x columns: expected at most"),
-        (("--width-deg", "361"), 1, "width: expected more than 0 and at most 360 degrees, found 361"),
-        (("--width-deg", "nan"), 1, "width: expected"),
-        (("--elevation-deg", "10", "-10"), 1, "elevation_deg: expected bottom below top"),
-        (("--dropouts", "2"), 1, "dropout_rate: expected 0 to 1"),
-        (("--beam-deg", "-1"), 1, "beam_deg: expected 0 or more"),
-        (("--photos", "--photo-samples", "0"), 1, "photo samples: expected 1 or more, found 0"),
+        (("--rows", "0"), 2, "--rows and --columns: expected 1 or more"),
+        (("--rows", "9" * 9), 2, "--rows x --columns: expected at most"),
+        (("--width-deg", "361"), 2, "--width-deg: expected more than 0 and at most 360 degrees, found 361"),
+        (("--width-deg", "nan"), 2, "--width-deg: expected"),
+        (("--elevation-deg", "10", "-10"), 2, "--elevation-deg: expected bottom below top"),
+        (("--dropouts", "2"), 2, "--dropouts: expected 0 to 1"),
+        (("--beam-deg", "-1"), 2, "--beam-deg: expected 0 or more"),
+        (("--photos", "--photo-samples", "0"), 2, "--photo-samples: expected 1 or more, found 0"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
 )

@@ -1,28 +1,32 @@
-"""The verb ``colorize``: from a scan and seeds, or photos, to colored files."""
+"""The verb ``colorize``: from scans and seeds, or photos, to colored files."""
 
-import json
-import time
-from contextlib import contextmanager
 from pathlib import Path
 
-from ..atomic import written_atomically
-from ..colorize import colorize
 from ..errors import SeedsError, UsageError
-from ..image_files import read_image, write_png
+from ..image_files import read_image
 from ..inputs import photo_files, scan_files
-from ..outputs import IMAGE_SUFFIXES, SCENE_SUFFIXES, check_outputs, scene_outputs, tracked
-from ..report import build_report, input_entry, photo_entry, scan_entry, stamped
+from ..outputs import IMAGE_SUFFIXES, SCENE_SUFFIXES, check_outputs, scene_outputs
 from ..seeds import Seeds
-from .options import add_matching, add_photos, add_propagation, add_scan, settings_of
-from .session import choose_scan
+from .options import add_matching, add_photos, add_propagation, add_scans, settings_of
+from .results import Job, is_scene, timed, write_results
+from .site import (
+    PLACEHOLDER,
+    check_choice,
+    check_place,
+    check_placeholder,
+    filled_for_all,
+    known_beforehand,
+    match_places,
+    read_site,
+)
 
 NAME = "colorize"
-HELP = "color a scan from seeds or photos"
+HELP = "color scans from seeds or photos"
 
 
 def add_arguments(parser):
     """Declare what ``colorize`` takes."""
-    add_scan(parser)
+    add_scans(parser)
     parser.add_argument(
         "--seeds",
         metavar="SEEDS.json",
@@ -47,97 +51,94 @@ def add_arguments(parser):
 
 
 def run(arguments, session):
-    """Colorize one scan and write every output; all that can be checked beforehand is."""
+    """Colorize a scan, or all scans of a site alike, and write every output; all that can be checked beforehand is.
+
+    Of several scans each has files of its own: {scan} in the path of --seeds, --report and -o OUT.png stands for its
+    name. Scenes and --render hold all scans; with {scan} in the path there is one for each.
+    """
     settings = settings_of(arguments)
     if arguments.seeds is None and not arguments.photo:
         raise UsageError("--seeds or --photo: give seeds, or photos to find them in")
-    scene_paths = scene_outputs(arguments.output, arguments.render, session.blender)
-    times = {}
-    with _timed(times, "seeds"):
-        seeds = _load_seeds(arguments, session) if arguments.seeds is not None else None
-    inputs = [("scan", path) for path in scan_files(arguments.input)]
-    if seeds is not None:
-        inputs.append(("seeds", arguments.seeds))
-        inputs += [("photo", path) for path in photo_files(seeds, arguments.seeds, arguments.photo)]
-    else:
-        inputs += [("photo", path) for path in dict.fromkeys(arguments.photo)]
+    check_choice(arguments.input, arguments.wanted)
+    scene_outputs(arguments.output, arguments.render, session.blender)
     outputs = [("-o", path) for path in arguments.output]
     outputs += [(f"--{name}", path) for name in ("render", "report") if (path := getattr(arguments, name)) is not None]
-    check_outputs(outputs, [path for _, path in inputs])
-
-    with _timed(times, "read"):
-        index, scan = choose_scan(session.read_scans(arguments.input), arguments.wanted, arguments.input)
-    found_in = ()
-    if seeds is None:
-        with _timed(times, "match"):
-            seeds, found_in = _found_seeds(scan, arguments.photo, settings, session)
-    with _timed(times, "colorize"):
-        colorization = colorize(scan, seeds, settings, progress=session.progress, cancelled=session.cancelled)
-    session.warnings += [*scan.warnings, *colorization.warnings]
-    report = None
-    if scene_paths or arguments.render or arguments.report:
-        report = build_report(
-            scan_entry(scan, index),
-            colorization,
-            settings,
-            given_seeds=seeds,
-            photos=[photo_entry(photo) for photo in found_in],
-            inputs=[input_entry(role, path, session.cancelled) for role, path in inputs],
-            outputs=outputs,
-            noticed=scan.warnings,
-            blender=session.blender_version,
-        )
-        report = stamped(report)
-
-    images = [path for path in arguments.output if path not in scene_paths]
-    with tracked([path for _, path in outputs], session.written):
-        with _timed(times, "write"):
-            if scene_paths or arguments.render:
-                session.blender.write_scene(scan, colorization, scene_paths, arguments.render, session.progress, report)
-            for path in images:
-                session.progress(1.0, f"Writing {path.name}")
-                write_png(path, colorization.rgb)
-        if arguments.report:
-            session.progress(1.0, f"Writing {arguments.report.name}")
-            _write_json(arguments.report, report | {"times_s": times})
-    for _, path in outputs:
-        session.console.print(f"wrote {path}")
+    times = {}
+    jobs = _jobs(arguments, outputs, settings, session, times)
+    write_results(jobs, outputs, settings, session, times)
 
 
-def _found_seeds(scan, photos, settings, session):
-    """Seeds found in photos, and what became of each photo."""
-    from ..matching import match_photos
+def _jobs(arguments, outputs, settings, session, times):
+    """Every scan with its seeds; after this only memory and the disk can fail."""
+    photos = arguments.photo
+    of_each = [output for output in outputs if not is_scene(*output)]
+    of_each += [("--seeds", path) for path in filter(None, [arguments.seeds])]
+    check_placeholder(of_each, len(arguments.input))
+    given = None
+    with timed(times, "seeds"):
+        if arguments.seeds is not None and PLACEHOLDER not in str(arguments.seeds):
+            given = [_load_seeds(arguments.seeds, photos, session)]
+            _check_photos(photos, given, session)
+    inputs = _inputs(arguments.input, photos, arguments.seeds, given and given[0])
+    check_outputs(known_beforehand(outputs), [path for _, path in inputs])
 
-    matching = match_photos(scan, photos, settings, progress=session.progress, cancelled=session.cancelled)
-    session.warnings += matching.warnings
-    for photo in matching.photos:
-        session.console.print(f"{photo.name}: {photo.note}")
-    return matching.seeds, matching.photos
+    with timed(times, "read"):
+        places = read_site(arguments.input, arguments.wanted, session)
+    check_placeholder(of_each, len(places))
+    paths = [arguments.seeds and place.filled(arguments.seeds) for place in places]
+    if arguments.seeds is not None:
+        with timed(times, "seeds"):
+            given = given or _seeds_of_each(places, paths, photos, session)
+        for place, path, seeds in zip(places, paths, given, strict=True):
+            check_place(seeds, path, place.scan)
+    inputs = [
+        _inputs([place.path], photos, path, seeds)
+        for place, path, seeds in zip(places, paths, given or paths, strict=True)
+    ]
+    check_outputs(filled_for_all(outputs, places), [path for own in inputs for _, path in own])
+    if given is not None:
+        return [Job(*job) for job in zip(places, given, inputs, strict=True)]
+    with timed(times, "match"):
+        found = match_places(places, photos, settings, session)
+    for _, lines in found:
+        for line in lines:
+            session.console.print(line)
+    return [
+        Job(place, matching.seeds, own, matching.photos)
+        for place, (matching, _), own in zip(places, found, inputs, strict=True)
+    ]
 
 
-def _load_seeds(arguments, session):
-    """The seeds; every photo that was given must be an image, and one that serves nothing is told."""
-    seeds = Seeds.load(arguments.seeds, arguments.photo)
+def _seeds_of_each(places, paths, photos, session):
+    for place, path in zip(places, paths, strict=True):
+        if not path.is_file():
+            raise SeedsError(f"{path}: no such file; expected the seeds of the scan {place.scan.name}")
+    given = [_load_seeds(path, photos, session) for path in paths]
+    _check_photos(photos, given, session)
+    return given
+
+
+def _load_seeds(path, photos, session):
+    seeds = Seeds.load(path, photos)
     if len(seeds) == 0:
-        raise SeedsError(f"{arguments.seeds}: holds no seeds; give at least one pixel with a color")
+        raise SeedsError(f"{path}: holds no seeds; give at least one pixel with a color")
     if all(reason == "appearance" for reason in seeds.reason):
-        session.warnings.append(f"{arguments.seeds}: every color is a guess by likeness; none was seen or picked")
-    for path in arguments.photo:
-        read_image(path)
-        if path.name not in {Path(name).name for name in seeds.photos if name}:
-            session.warnings.append(f"{path}: no seed names this photo")
+        session.warnings.append(f"{path}: every color is a guess by likeness; none was seen or picked")
     return seeds
 
 
-@contextmanager
-def _timed(times, name):
-    start = time.perf_counter()
-    yield
-    times[name] = round(time.perf_counter() - start, 3)
+def _check_photos(photos, given, session):
+    """Every photo that was given must be an image, and one that serves nothing is told."""
+    named = {Path(name).name for seeds in given for name in seeds.photos if name}
+    for path in photos:
+        read_image(path)
+        if path.name not in named:
+            session.warnings.append(f"{path}: no seed names this photo")
 
 
-def _write_json(path, document):
-    text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    with written_atomically(path) as temporary:
-        # A file name that is no text comes out as JSON's own escapes.
-        temporary.write_bytes(text.encode("utf-8", "backslashreplace"))
+def _inputs(scan_paths, photos, seeds_path, seeds):
+    """(role, path) of every file that colors are from; ``seeds`` is None where they are not known."""
+    inputs = [("scan", file) for path in scan_paths for file in scan_files(path)]
+    if seeds is None:
+        return inputs + [("photo", path) for path in dict.fromkeys(photos)]
+    return [*inputs, ("seeds", seeds_path), *(("photo", path) for path in photo_files(seeds, seeds_path, photos))]

@@ -4,9 +4,10 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from ..settings import ALPHA_RANGE, BETA_RANGE, COLOR_SPACES, MATCHINGS, NEIGHBORS, PRESETS, Settings
+from ..errors import SettingsError, UsageError
+from ..settings import ALPHA_RANGE, BETA_RANGE, COLOR_SPACES, MATCHINGS, MAX_NEAREST, NEIGHBORS, PRESETS, Settings
 
-_SCAN_HELP = "which scan of the file: its name, or its index as info prints it, counted from 1"
+_SCAN_HELP = "which scan of a file of several: its name, its index as info prints it (counted from 1), or all"
 _PROPAGATION = ("alpha", "beta", "color_space", "neighbors", "nearest", "smoothing", "kriging")
 _MATCHING = (
     ("slic_segments", int, "superpixels that the scan, and each photo, is divided into"),
@@ -20,9 +21,15 @@ _MATCHING = (
 _ALL = "all"
 
 
-def add_scan(parser):
-    """The scan file, and which scan of it."""
-    parser.add_argument("input", metavar="SCAN", type=Path, help="scan file: .ptx, .e57 or .scan.json")
+def add_scans(parser):
+    """The scan files, and which scan of a single one."""
+    parser.add_argument(
+        "input",
+        metavar="SCAN",
+        type=Path,
+        nargs="+",
+        help="scan file: .ptx, .e57 or .scan.json; of several, of one site, every scan is taken",
+    )
     parser.add_argument("--scan", dest="wanted", metavar="NAME_OR_INDEX", help=_SCAN_HELP)
 
 
@@ -35,7 +42,11 @@ def add_propagation(parser):
     """How colors spread from the seeds; what is not given is the preset's."""
     default = Settings()
     parser.add_argument(
-        "--preset", choices=tuple(PRESETS), default="Paper", help="where the settings start from (default %(default)s)"
+        "--preset",
+        type=_preset,
+        choices=tuple(PRESETS),
+        default="Paper",
+        help="where the settings start from (default %(default)s)",
     )
     parser.add_argument(
         "--alpha",
@@ -86,7 +97,7 @@ def settings_of(arguments):
 
     Raises
     ------
-    SettingsError
+    UsageError
         If a value is out of its range.
     """
     preset = getattr(arguments, "preset", "Paper")
@@ -98,13 +109,26 @@ def settings_of(arguments):
     given = {name: value for name in names if (value := getattr(arguments, name, None)) is not None}
     if given.get("nearest") == _ALL:
         given["nearest"] = None
-    return replace(settings, **given)
+    try:
+        return replace(settings, **given)
+    except SettingsError as error:
+        name, _, expected = str(error).partition(":")
+        raise UsageError(f"--{name.replace('_', '-')}:{expected}") from error
+
+
+def _preset(text):
+    return next((name for name in PRESETS if name.casefold() == text.casefold()), text)
 
 
 def _nearest(text):
     if text in (_ALL, "auto"):
         return text
     try:
-        return int(text)
+        number = int(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f'expected "{_ALL}", "auto" or a whole number, found {text!r}') from None
+        number = 0
+    if not 1 <= number <= MAX_NEAREST:
+        raise argparse.ArgumentTypeError(
+            f'expected "{_ALL}", "auto" or a whole number from 1 to {MAX_NEAREST}, found {text}'
+        )
+    return number

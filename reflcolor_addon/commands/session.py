@@ -50,12 +50,18 @@ class Session:
             raise Cancelled
         self.console.progress(fraction, text)
 
+    def part(self, number, count, name):
+        """Return a `progress` for one of several equal parts, counted from 0, that says which one it is."""
+        if count == 1:
+            return self.progress
+        return lambda fraction, text: self.progress((number + fraction) / count, f"{name}: {text}")
+
     def read_scans(self, path):
         """Read all scans of a file, with progress; print nothing else."""
         return read_scans(path, progress=self.progress, cancelled=self.cancelled)
 
 
-def choose_scan(scans, wanted, path):
+def choose_scan(scans, wanted, path, *, otherwise=""):
     """Return the index (from 1) and the scan that ``--scan`` names.
 
     Parameters
@@ -65,6 +71,8 @@ def choose_scan(scans, wanted, path):
         A name or, where no scan has that name, an index counted from 1. None: the only scan there is.
     path : Path
         The file, for messages.
+    otherwise : str
+        What else can be done, as the end of the message.
 
     Raises
     ------
@@ -80,5 +88,5 @@ def choose_scan(scans, wanted, path):
         found = found or [(index, scan) for index, scan in indexed if str(index) == wanted]
         problem = f"--scan {wanted} means {len(found) or 'none'} of the scans in {path}"
     if len(found) != 1:
-        raise UsageError(f"{problem}; choose one by --scan NAME or --scan INDEX: {listing}")
+        raise UsageError(f"{problem}; choose one by --scan NAME or --scan INDEX: {listing}{otherwise}")
     return found[0]

@@ -11,6 +11,18 @@ NAME = "simulate"
 HELP = "scan a scene with a virtual scanner (in Blender)"
 _SUFFIXES = (".ptx", ".e57", ".scan.json")
 _PHOTO_SAMPLES = 32
+_OPTIONS = {
+    "rows and columns": "--rows and --columns",
+    "rows x columns": "--rows x --columns",
+    "elevation_deg": "--elevation-deg",
+    "range_limits_m": "--greatest-range",
+    "range_noise_m": "--range-noise",
+    "reflectance_noise": "--reflectance-noise",
+    "beam_deg": "--beam-deg",
+    "dropout_rate": "--dropouts",
+    "seed": "--seed",
+}
+"""The option that sets what a message of the scanner begins with."""
 
 
 def add_arguments(parser):
@@ -103,7 +115,7 @@ def run(arguments, session):
         own_look=not arguments.plain_photos,
     )
     if request.photo_samples < 1:
-        raise SettingsError(f"photo samples: expected 1 or more, found {request.photo_samples}")
+        raise UsageError(f"--photo-samples: expected 1 or more, found {request.photo_samples}")
     check_outputs([("-o", arguments.output)], [arguments.input])
     session.blender.simulate(request, session.progress, session.written)
     for path in session.written:
@@ -113,16 +125,20 @@ def run(arguments, session):
 def _scanner(arguments):
     width = 360.0 if arguments.full_turn else arguments.width_deg
     if not 0 < width <= 360:
-        raise SettingsError(f"width: expected more than 0 and at most 360 degrees, found {width:g}")
-    return ScannerModel(
-        rows=arguments.rows,
-        columns=arguments.columns,
-        azimuth_deg=(-width / 2, width / 2),
-        elevation_deg=tuple(arguments.elevation_deg),
-        range_limits_m=(ScannerModel().range_limits_m[0], arguments.greatest_range),
-        range_noise_m=arguments.range_noise,
-        reflectance_noise=arguments.reflectance_noise,
-        beam_deg=arguments.beam_deg,
-        dropout_rate=arguments.dropouts,
-        seed=arguments.seed,
-    )
+        raise UsageError(f"--width-deg: expected more than 0 and at most 360 degrees, found {width:g}")
+    try:
+        return ScannerModel(
+            rows=arguments.rows,
+            columns=arguments.columns,
+            azimuth_deg=(-width / 2, width / 2),
+            elevation_deg=tuple(arguments.elevation_deg),
+            range_limits_m=(ScannerModel().range_limits_m[0], arguments.greatest_range),
+            range_noise_m=arguments.range_noise,
+            reflectance_noise=arguments.reflectance_noise,
+            beam_deg=arguments.beam_deg,
+            dropout_rate=arguments.dropouts,
+            seed=arguments.seed,
+        )
+    except SettingsError as error:
+        name, _, expected = str(error).partition(":")
+        raise UsageError(f"{_OPTIONS.get(name, name)}:{expected}") from error
