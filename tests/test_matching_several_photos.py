@@ -74,3 +74,9 @@ def test_a_darker_photo_is_brought_to_the_brightness_of_the_other(image):
 def test_photos_that_do_not_overlap_keep_their_exposure(image):
     seen = view(image, painted_room.camera())
     assert (gains([[seen, None]]) == 1).all()
+
+
+def test_photos_that_do_not_show_the_same_where_they_overlap_keep_their_exposure(image):
+    camera = painted_room.camera()
+    other = seen_by(PhotoImage("other", painted_room.photo(camera, seed=1, gain=0.6)), camera, image)
+    assert (gains([[view(image, camera), other]]) == 1).all()

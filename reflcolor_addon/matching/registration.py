@@ -49,6 +49,10 @@ class Registration:
         """Whether nothing better need be looked for."""
         return self.accepted and self.evidence.rank >= _CONVINCING
 
+    def better_than(self, other):
+        """Whether more speaks for it than for another one."""
+        return self.model is not None and (other.model is None or self.evidence.rank > other.evidence.rank)
+
     @classmethod
     def nothing(cls, found_by="nothing"):
         """What there is before anything was found."""
@@ -128,7 +132,7 @@ def register(views, photo, *, step=lambda text: None):
     )
     for enough, attempt in attempts:
         found = attempt()
-        if found.evidence.rank > best.evidence.rank:
+        if found.better_than(best):
             best = found
         if best.accepted and best.evidence.rank >= enough:
             break
@@ -148,9 +152,9 @@ def confirmed(views, photo, model):
             if start is None:
                 continue
             candidate, proof = finely(views, photo, start, tone, rng)
-            proof = known_before(proof, views.image(tone, _FINE[0]))
-            if proof.rank > best.evidence.rank:
-                best = Registration(candidate, proof, "known")
+            found = Registration(candidate, known_before(proof, views.image(tone, _FINE[0])), "known")
+            if found.better_than(best):
+                best = found
         if best.accepted:
             break
     return best
@@ -221,10 +225,10 @@ def _by_features(views, photo, tone, step):
         rough = surfaces(views.image(tone, _MIDDLE[0]), views.tiles(tone, *_MIDDLE), photo, model, RADIUS)
         if rough is None or judged(rough).deviations < _LEAST_DEVIATIONS:
             continue
-        model, proof = finely(views, photo, model, tone, rng)
-        if proof.rank > best.evidence.rank:
-            best = Registration(model, proof, "features")
-        if best.accepted and proof.rank >= _CONVINCING:
+        found = Registration(*finely(views, photo, model, tone, rng), "features")
+        if found.better_than(best):
+            best = found
+        if best.beyond_doubt:
             break
     return best
 
@@ -232,24 +236,24 @@ def _by_features(views, photo, tone, step):
 def _tried(views, photo, tone, guesses, aside, step):
     """The best camera from guesses, of which the better ones go on to the finer levels."""
     rng = np.random.default_rng(0)
-    found = [(guess.camera(photo), NO_EVIDENCE) for guess in guesses[:_GUESSES]]
+    promising = [(guess.camera(photo), NO_EVIDENCE) for guess in guesses[:_GUESSES]]
     for levels in _FROM_ASIDE if aside else _FROM_SCANNER:
         tried = []
-        for model, _ in found:
+        for model, _ in promising:
             step(f"{photo.name}: trying directions")
             free = model.POSE if aside else model.ROTATION
             tried.append(refined(views, photo, model, tone, levels, free=free, rng=rng))
         tried = [pair for pair in tried if pair[0] is not None]
-        found = sorted(tried, key=lambda pair: -pair[1].rank)[:_TRIED]
+        promising = sorted(tried, key=lambda pair: -pair[1].rank)[:_TRIED]
     best = Registration.nothing("search")
-    for start, promise in found[:2]:
-        if promise.strength < max(_TELLING, _NEARLY * found[0][1].strength) or best.evidence.rank >= _CONVINCING:
+    for start, promise in promising[:2]:
+        if promise.strength < max(_TELLING, _NEARLY * promising[0][1].strength) or best.evidence.rank >= _CONVINCING:
             break
         for turned_only in (False,) if aside else (True, False):
             step(f"{photo.name}: refining")
-            model, proof = finely(views, photo, start, tone, rng, turned_only=turned_only)
-            if proof.rank > best.evidence.rank:
-                best = Registration(model, proof, "search")
+            found = Registration(*finely(views, photo, start, tone, rng, turned_only=turned_only), "search")
+            if found.better_than(best):
+                best = found
     # A camera far from its guess needs several rounds: what it sees changes while it moves.
     for _ in range(_ROUNDS):
         if best.evidence.rank < _PROMISING:

@@ -6,6 +6,8 @@ from ..virtual_camera import linear_to_srgb8, srgb8_to_linear
 
 _LEAST_OVERLAP = 40
 _TRUSTED = (12, 245)
+# Light that differs by this much (median deviation of the logarithm) from pixel to pixel is not one photo's gain.
+_LARGEST_SPREAD = 0.5
 _KEEP = 0.05
 _FAVORING_THE_BEST = 4.0
 _LARGEST_GAIN = np.log(8.0)
@@ -22,7 +24,8 @@ def gains(views):
     Returns
     -------
     (P, 3) float64
-        Ones where a photo overlaps no other. Their geometric mean over the photos is about 1: no photo is the master.
+        Ones where a photo overlaps no other, or where what both show differs by more than a gain. Their geometric mean
+        over the photos is about 1: no photo is the master.
     """
     count = len(views[0]) if views else 0
     rows, values, weights = [], [], []
@@ -93,4 +96,7 @@ def _ratio(first, second):
     ratios = np.concatenate(ratios) if ratios else np.zeros((0, 3))
     if len(ratios) < _LEAST_OVERLAP:
         return None, 0
-    return np.median(ratios, axis=0), len(ratios)
+    middle = np.median(ratios, axis=0)
+    if np.median(np.abs(ratios - middle), axis=0).max() > _LARGEST_SPREAD:
+        return None, 0
+    return middle, len(ratios)

@@ -84,7 +84,9 @@ class Evidence:
         return min(self.strength, self.distinct / _NEEDED_OF_DISTINCT) / self.needed
 
     def __str__(self):
-        return f"{self.in_place} of {self.tiles} tiles in place"
+        if self.tiles == 0:
+            return "it shows nothing of the scan that could be found"
+        return f"{self.in_place} of {self.tiles} parts of the scan agree with it"
 
 
 NO_EVIDENCE = Evidence(0.0, 0, 0, 0.0, 0.0, 0.0)
