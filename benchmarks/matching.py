@@ -5,8 +5,8 @@ from the seeds found, and from perfect seeds at the same places; and the gap clo
 first to the last was gone. 1 is as good as perfect seeds, 0 as the mean color, below 0 is worse than that. A photo's
 own exposure and white balance cannot be known, so "in light" is the same after three gains that bring its colors, of
 seeds and of mean alike, nearest to the true ones: what is left is from wrong places. Seconds are of processor time.
-"unrelated" tries every real scan with every photo of something else: none may be verified. "cost" is time and memory
-for a scan of 760 x 1135 and a photo of 12 megapixels.
+"unrelated" tries every real scan with every photo of something else, and simulated ones: none may be verified. "cost"
+is time and memory for a scan of 760 x 1135 and a photo of 12 megapixels.
 """
 
 import argparse
@@ -40,7 +40,7 @@ def main():
     print(f"{'scan':12} {'photo':22} {'mode':9}   mean  result  perfect     gap in light  seconds  note", flush=True)
     for group in arguments.groups or groups:
         if group == "unrelated":
-            unrelated()
+            unrelated(arguments.scenes)
         elif group == "cost":
             cost()
         elif group == "site":
@@ -116,14 +116,14 @@ def lit(rgb, factors):
     return linear_to_srgb8(np.clip(srgb8_to_linear(rgb) * factors, 0, 1))
 
 
-def unrelated():
+def unrelated(scenes):
     """Print what speaks for every scan with every photo of something else."""
     accepted = tried = 0
-    for scan, other, photo in matching_pairs.unrelated():
+    for scan, other, photo in matching_pairs.unrelated(scenes):
         (report,) = match_photos(scan, [photo], Settings()).photos
         tried += 1
         accepted += report.verified
-        print(f"{scan.name:12} {other:14} {'ACCEPTED' if report.verified else 'refused':9} {report.note}", flush=True)
+        print(f"{scan.name:12} {other:20} {'ACCEPTED' if report.verified else 'refused':9} {report.note}", flush=True)
     print(f"unrelated: {accepted} of {tried} pairs accepted", flush=True)
 
 

@@ -28,6 +28,18 @@ PUMP_PAIRS = (
 )
 
 
+# What another white balance multiplies red, green and blue by: that of a lamp, and that of another camera.
+_WARM, _MILD = (1.08, 0.95, 0.8), (1.02, 1.0, 0.95)
+# Folder, scan, truth and what makes it; the sides of the house that its photos show nothing of.
+_SCENES = (
+    ("cones", "cones", "truth", "views.py"),
+    ("person_room", "room", "truth", "make.py"),
+    ("brick_house", "south", "south.truth", "make.py"),
+)
+_NOT_SHOWN = (("photo_10", "north west"), ("photo_25", "north west"), ("photo_45", "north west"))
+_NOT_SHOWN += (("photo_north", "south east west"), ("photo_west", "south east north"))
+
+
 @dataclass(frozen=True, eq=False)
 class Pair:
     """A scan, what it is matched with, and its true colors (H, W, 3) where they are known (H, W)."""
@@ -47,11 +59,15 @@ def straight(scenes):
         yield _real(scan, "own", scan.color)
 
 
-def warped(scenes):
-    """Yield every scan with its own colors, warped."""
-    for name in real_scans.NAMES:
-        scan = real_scans.load(name, DATA)
-        yield _real(scan, "own, warped", warped_photo(scan.color))
+def warped(light, label):
+    """Return what yields every scan with its own colors, warped, in light of another color."""
+
+    def pairs(scenes):
+        for name in real_scans.NAMES:
+            scan = real_scans.load(name, DATA)
+            yield _real(scan, label, warped_photo(scan.color, light))
+
+    return pairs
 
 
 def turned(scenes):
@@ -81,11 +97,7 @@ def simulated(degrees):
     """Return what yields the scenes of the paper with photos so many degrees off the scanner's line."""
 
     def pairs(scenes):
-        for name, scan, truth, script in (
-            ("cones", "cones", "truth", "views.py"),
-            ("person_room", "room", "truth", "make.py"),
-            ("brick_house", "south", "south.truth", "make.py"),
-        ):
+        for name, scan, truth, script in _SCENES:
             folder = cases.simulated(scenes / name, script)
             (own,) = read_scans(folder / f"{scan}.scan.json")
             photo = folder / f"photo_{degrees}.jpg"
@@ -109,8 +121,9 @@ def site(scenes):
         yield label, pairs
 
 
-def unrelated():
-    """Yield every real scan with the name and the image of every photo of something else."""
+def unrelated(scenes):
+    """Yield every real scan with the name and the image of every photo of something else; then the simulated scenes
+    with each other's photos, and the sides of the house with photos of other sides."""
     photos = {name: real_scans.load(name, DATA).color for name in real_scans.NAMES}
     photos |= {"k4a photo": read_image(K4A_PHOTO), "pumpA photo": read_image(PUMP_PHOTO)}
     for name in real_scans.NAMES:
@@ -118,11 +131,22 @@ def unrelated():
         for other, photo in photos.items():
             if not _related(name, other):
                 yield scan, other, photo
+    folders = {name: cases.simulated(scenes / name, script) for name, _, _, script in _SCENES}
+    for name, scan_name, _, _ in _SCENES:
+        (scan,) = read_scans(folders[name] / f"{scan_name}.scan.json")
+        for other, degrees in itertools.product(folders, (10, 45)):
+            if other != name:
+                yield scan, f"{other}, {degrees} deg", read_image(folders[other] / f"photo_{degrees}.jpg")
+    for photo, sides in _NOT_SHOWN:
+        for side in sides.split():
+            (scan,) = read_scans(folders["brick_house"] / f"{side}.scan.json")
+            yield scan, photo, read_image(folders["brick_house"] / f"{photo}.jpg")
 
 
 GROUPS = {
     "straight": straight,
-    "warped": warped,
+    "warped": warped(_WARM, "own, warped"),
+    "warped-mild": warped(_MILD, "own, warped, mild"),
     "turned": turned,
     "k4a": k4a,
     "pumpA": pump,
@@ -130,15 +154,15 @@ GROUPS = {
 }
 
 
-def warped_photo(color):
-    """Return a photo's own colors warped strongly, twice as large, darker and warmer, JPEG of quality 80."""
+def warped_photo(color, light=_WARM):
+    """Return a photo's own colors warped strongly, twice as large, darker, in other light, JPEG of quality 80."""
     height, width = color.shape[:2]
     corners = np.float32([[0, 0], [width, 0], [width, height], [0, height]])
     moved = np.float32([[0.12, 0.06], [0.93, 0.0], [1.0, 0.95], [0.0, 0.86]]) * np.float32([width, height]) * 2
     large = cv2.warpPerspective(
         color, cv2.getPerspectiveTransform(corners, moved), (2 * width, 2 * height), flags=cv2.INTER_CUBIC
     )
-    lit = np.clip((large / 255.0) ** 1.1 * np.array([1.08, 0.95, 0.8]) * 255, 0, 255).astype(np.uint8)
+    lit = np.clip((large / 255.0) ** 1.1 * np.array(light) * 255, 0, 255).astype(np.uint8)
     data = cv2.imencode(".jpg", lit[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 80])[1]
     return cv2.imdecode(data, cv2.IMREAD_COLOR)[..., ::-1].copy()
 
