@@ -32,7 +32,9 @@ class REFLCOLOR_OT_apply_preset(bpy.types.Operator):
         return tip(_DESCRIPTIONS[properties.preset])
 
     def execute(self, context):
-        take_over(context.scene.reflcolor, Settings.preset(self.preset))
+        settings = context.scene.reflcolor
+        # How light the colors are is the scan's matter, not the method's.
+        take_over(settings, Settings.preset(self.preset, tone=settings.tone))
         return {"FINISHED"}
 
 

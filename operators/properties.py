@@ -194,6 +194,14 @@ class ColorizeSettings:
         min=0,
         max=1,
     )
+    tone: FloatProperty(
+        name="Tone",
+        description="Above 1 the colors are lighter, below 1 darker; 1 is as light as the reflectance",
+        default=_PAPER.tone,
+        min=settings.TONE_RANGE[0],
+        max=settings.TONE_RANGE[1],
+        step=10,
+    )
 
 
 class MatchSettings:

@@ -23,6 +23,7 @@ class Colorize(Step):
         column = layout.column()
         column.prop(settings, "alpha")
         column.prop(settings, "beta")
+        column.prop(settings, "tone")
         job = jobs.running()
         if job is not None:
             layout.progress(

@@ -2,6 +2,7 @@
 
 import os
 from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from .memory import require_memory
 from .normalization import normalize
 from .settings import Settings
 from .smoothing import smooth
+from .tone import tone_to_try, toned
 
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
 _HALF_CONFIDENCE = 64.0
@@ -41,9 +43,9 @@ _KRIGING_BYTES = 100
 class Colorizer:
     """Colorizes one scan again and again; what did not change is not computed anew.
 
-    It holds the scan's graph, the geodesic fields of its seeds, and the sums of eq. 1. A seed that is added costs one
-    field; one that is moved, one field and a new sum; one that is removed or recolored, a new sum. The result has the
-    same bits as one computed at once.
+    It holds the scan's graph, the geodesic fields of its seeds, the sums of eq. 1, and what came of them last. A seed
+    that is added costs one field; one that is moved, one field and a new sum; one that is removed or recolored, a new
+    sum; another tone, none of these. The result has the same bits as one computed at once.
 
     Parameters
     ----------
@@ -52,7 +54,7 @@ class Colorizer:
         The paper's by default.
     memory : int
         Bytes that fields may take; the least recently used ones are dropped and computed again when needed. With 0,
-        the sums are not kept, either.
+        nothing else is kept, either.
     threads : int, optional
         By default one per processor. The number changes no bit of a result.
 
@@ -67,9 +69,10 @@ class Colorizer:
         self.threads = threads or os.cpu_count() or 1
         self._fields = HeldFields(memory)
         self._luminance, reflectance_limits = normalize(scan.reflectance, scan.valid)
+        self._median = float(np.median(self._luminance[scan.valid])) if scan.valid.any() else 0.0
         self._range_image, range_limits = normalize(scan.range, scan.valid)
         self._normalization = {"reflectance": reflectance_limits, "range": range_limits}
-        self.settings = None
+        self.settings = self._spread = None
         self._use(settings or Settings())
 
     @property
@@ -91,6 +94,36 @@ class Colorizer:
         if kriging and len(seeds) > MAX_SEEDS:
             kriging = 0.0
             warnings.append(f"kriging is left out: it takes {MAX_SEEDS} seeds at most, found {len(seeds)}")
+        wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), replace(self.settings, tone=1.0)
+        if self._spread is None or self._spread[0] != wanted:
+            self._spread = None
+            self._spread = wanted, self._spread_from(pixels, chrominance, kriging, progress, cancelled)
+        chroma, confidence, nearest_seed, method = self._spread[1]
+        if not self._fields.limit:
+            self._spread = None
+        reached = nearest_seed >= 0
+        progress(_COLORED, "Writing the colors")
+        unreached = int(np.count_nonzero(self.scan.valid & ~reached))
+        if unreached:
+            warnings.append(f"{unreached} pixels are cut off from every seed and keep their gray; add seeds there")
+        tone = tone_to_try(self._median, self.settings.tone)
+        if tone is not None:
+            # First, because a list of warnings may be cut.
+            warnings.insert(0, f"the colors are dark because most of the reflectance is; try tone {tone:g}")
+        rgb, lost = self._paint(chroma, reached, cancelled)
+        progress(1.0, "Colorized")
+        return Colorization(
+            rgb=rgb,
+            confidence=(confidence / (1 + lost / _HALF_CONFIDENCE_LEVELS)).astype(np.float32),
+            nearest_seed=nearest_seed.copy(),
+            seeds=seeds,
+            warnings=tuple(warnings),
+            normalization=self._normalization,
+            method=dict(method),
+        )
+
+    def _spread_from(self, pixels, chrominance, kriging, progress, cancelled):
+        """Return what does not depend on the tone: chrominance, confidence and nearest seed of every pixel, and how."""
         propagated = _PROPAGATED if kriging else _COLORED
         if kriging and self._features is None:
             # Found while the paths are; after a cancellation nobody waits for it.
@@ -109,24 +142,7 @@ class Colorizer:
             levels = np.hypot(*(estimate - chroma)) * colorspaces.levels_per_unit(self.settings.color_space)
             confidence /= 1 + levels / _HALF_CONFIDENCE_LEVELS
             chroma = (1 - kriging) * chroma + kriging * estimate
-        chroma = np.moveaxis(chroma, 0, -1)
-        progress(_COLORED, "Writing the colors")
-        unreached = int(np.count_nonzero(self.scan.valid & ~reached))
-        if unreached:
-            warnings.append(f"{unreached} pixels are cut off from every seed and keep their gray; add seeds there")
-        rgb, lost = self._paint(chroma, cancelled)
-        confidence /= 1 + lost / _HALF_CONFIDENCE_LEVELS
-        rgb[~reached] = np.rint(self._luminance[~reached])[:, None]
-        progress(1.0, "Colorized")
-        return Colorization(
-            rgb=rgb,
-            confidence=confidence.astype(np.float32),
-            nearest_seed=mean.nearest_seed,
-            seeds=seeds,
-            warnings=tuple(warnings),
-            normalization=self._normalization,
-            method=method,
-        )
+        return np.moveaxis(chroma, 0, -1), confidence, mean.nearest_seed, method
 
     def _use(self, settings):
         """Take over settings; what they make void is dropped."""
@@ -242,7 +258,7 @@ class Colorizer:
                 control.cancel()
                 raise
 
-    def _paint(self, chroma, cancelled):
+    def _paint(self, chroma, reached, cancelled):
         """Return the (H, W, 3) uint8 colors and the (H, W) float32 levels of chrominance that they lack."""
         rgb, lost = np.empty((*self.scan.shape, 3), np.uint8), np.empty(self.scan.shape, np.float32)
         rows = max(1, _PAINTED_PIXELS // rgb.shape[1])
@@ -250,8 +266,10 @@ class Colorizer:
             if cancelled():
                 raise Cancelled
             strip = slice(top, top + rows)
-            rgb[strip] = colorspaces.merge(self._luminance[strip], chroma[strip], self.settings.color_space)
+            luminance = toned(self._luminance[strip], self.settings.tone)
+            rgb[strip] = colorspaces.merge(luminance, chroma[strip], self.settings.color_space)
             lost[strip] = colorspaces.lost_levels(rgb[strip], chroma[strip], self.settings.color_space)
+            rgb[strip][~reached[strip]] = np.rint(luminance[~reached[strip]])[:, None]
         return rgb, lost
 
     def _krige(self, pixels, chrominance, path_residuals, progress, cancelled):

@@ -13,6 +13,7 @@ from .errors import Cancelled
 from .normalization import normalize
 from .scan import Scan
 from .seeds import Seeds
+from .tone import toned
 
 # The coarse result has about this many pixels; a scan that has few more is colorized at once.
 COARSE_PIXELS = 60_000
@@ -147,7 +148,7 @@ class _LiveScan:
     def coarse(self, seeds, settings, cancelled):
         """Return colors of all pixels by the chrominance of a few; None where that is no gain. Gray without seeds."""
         if len(seeds) == 0:
-            return np.repeat(np.rint(self._luminance).astype(np.uint8)[..., None], 3, axis=-1)
+            return np.repeat(np.rint(toned(self._luminance, settings.tone)).astype(np.uint8)[..., None], 3, axis=-1)
         if self._stride == 1 or (self._coarse is None and not self._scan.valid[:: self._stride, :: self._stride].any()):
             return None
         if self._coarse is None:
@@ -158,7 +159,8 @@ class _LiveScan:
         chroma[found.nearest_seed < 0] = 0
         height, width = self._scan.shape
         enlarged = cv2.resize(chroma, None, fx=self._stride, fy=self._stride, interpolation=cv2.INTER_LINEAR)
-        rgb = colorspaces.merge(self._luminance, enlarged[:height, :width], settings.color_space)
+        luminance = toned(self._luminance, settings.tone)
+        rgb = colorspaces.merge(luminance, enlarged[:height, :width], settings.color_space)
         rgb[~self._scan.valid] = 0
         return rgb
 

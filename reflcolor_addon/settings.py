@@ -13,6 +13,7 @@ BETA_RANGE = (0.0, 1e6)
 MATCHINGS = ("verified", "paper")
 MAX_NEAREST = 1024
 MAX_SMOOTHING = 16.0
+TONE_RANGE = (0.2, 5.0)
 PRESETS = {"Paper": {}, "Enhanced": {"alpha": 3.0, "nearest": 8, "smoothing": 1.0, "kriging": 0.6}}
 
 
@@ -38,6 +39,9 @@ class Settings:
         it; the luminance of the result is not smoothed. The paper has none.
     kriging : float, 0 to 1
         Share of kriging (see ``kriging.py``) in the chrominance; the rest is eq. 1. The paper has none.
+    tone : float, 0.2 to 5
+        Gamma of the luminance of the result: above 1 it is lighter, below 1 darker, 1 is the reflectance as it is. No
+        distance and no chrominance depends on it.
     matching : {"verified", "paper"}
         How seeds are found in photos: by a camera that is verified, or as published, by the most similar superpixels.
     slic_segments : int, 1 to 20000
@@ -63,6 +67,7 @@ class Settings:
     nearest: int | str | None = None
     smoothing: float = 0.0
     kriging: float = 0.0
+    tone: float = 1.0
     matching: str = "verified"
     slic_segments: int = 500
     slic_compactness: float = 0.1
@@ -87,6 +92,7 @@ class Settings:
             )
         _check_range("smoothing", self.smoothing, (0.0, MAX_SMOOTHING))
         _check_range("kriging", self.kriging, (0.0, 1.0))
+        _check_range("tone", self.tone, TONE_RANGE)
         self._check_matching()
 
     def _check_matching(self):

@@ -156,6 +156,7 @@ _PROPERTIES = {
     "Superpixels": "Superpixel",
     "Swap Images": "Bilder vertauschen",
     "Text": "Text",
+    "Tone": "Tonwert",
     "Top Edge": "Obere Kante",
     "True Colors": "Wahre Farben",
     "Warning": "Warnung",

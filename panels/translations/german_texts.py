@@ -162,6 +162,9 @@ CORE = {
     "seed {}: no return at row {}, column {}; moved to row {}, column {}": (
         "Saatpunkt {}: keine Messung in Zeile {}, Spalte {}; verschoben nach Zeile {}, Spalte {}"
     ),
+    "the colors are dark because most of the reflectance is; try tone {}": (
+        "die Farben sind dunkel, weil die Reflektanz es größtenteils ist; Tonwert {} versuchen"
+    ),
     "{} nearest of {} seeds": "{} nächste von {} Saatpunkten",
     "{} pixels are cut off from every seed and keep their gray; add seeds there": (
         "{} Pixel sind von allen Saatpunkten abgeschnitten und bleiben grau; dort Saatpunkte hinzufügen"

@@ -147,6 +147,9 @@ _LOOKS = {
 }
 
 _SETTINGS = {
+    "Above 1 the colors are lighter, below 1 darker; 1 is as light as the reflectance": (
+        "Über 1 sind die Farben heller, unter 1 dunkler; 1 ist so hell wie die Reflektanz"
+    ),
     "Whether its camera was found and stood the test": "Ob seine Kamera gefunden wurde und die Prüfung bestand",
     "All seeds where that takes about two seconds, else as many as it takes to be close to that": (
         "Alle Saatpunkte, wo das etwa zwei Sekunden braucht, sonst so viele, dass es dem nahekommt"

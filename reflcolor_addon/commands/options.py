@@ -5,10 +5,20 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..errors import SettingsError, UsageError
-from ..settings import ALPHA_RANGE, BETA_RANGE, COLOR_SPACES, MATCHINGS, MAX_NEAREST, NEIGHBORS, PRESETS, Settings
+from ..settings import (
+    ALPHA_RANGE,
+    BETA_RANGE,
+    COLOR_SPACES,
+    MATCHINGS,
+    MAX_NEAREST,
+    NEIGHBORS,
+    PRESETS,
+    TONE_RANGE,
+    Settings,
+)
 
 _SCAN_HELP = "which scan of a file of several: its name, its index as info prints it (counted from 1), or all"
-_PROPAGATION = ("alpha", "beta", "color_space", "neighbors", "nearest", "smoothing", "kriging")
+_PROPAGATION = ("alpha", "beta", "color_space", "neighbors", "nearest", "smoothing", "kriging", "tone")
 _MATCHING = (
     ("slic_segments", int, "superpixels that the scan, and each photo, is divided into"),
     ("slic_compactness", float, "of the superpixels; higher makes them squarer"),
@@ -76,6 +86,14 @@ def add_propagation(parser):
     )
     parser.add_argument("--smoothing", type=float, metavar="PIXELS", help="of the reflectance (Paper: 0)")
     parser.add_argument("--kriging", type=float, metavar="SHARE", help="of kriging in the colors, 0 to 1 (Paper: 0)")
+    parser.add_argument(
+        "--tone",
+        type=float,
+        metavar="GAMMA",
+        help="above 1 the colors are lighter, below 1 darker, {:g} to {:g} (default {:g})".format(
+            *TONE_RANGE, default.tone
+        ),
+    )
 
 
 def add_matching(parser):
