@@ -5,6 +5,7 @@ import numpy as np
 from mathutils import Vector
 
 from ..reflcolor_addon.framing import frame, frame_in_region, in_world
+from .scan_object import coordinates_of
 
 
 def view_of(objects, aspect):
@@ -50,10 +51,5 @@ def look_from_scanner(context, obj, area):
 def _points_and_scanner(objects):
     """(N, 3) float64, the vertices of the objects in the world, and (3,), the middle of their scanners' places."""
     scanners = [np.array(obj.matrix_world.translation) for obj in objects]
-    return np.concatenate([_points_of(obj) for obj in objects]), np.mean(scanners, axis=0)
-
-
-def _points_of(obj):
-    coordinates = np.empty(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", coordinates)
-    return in_world(coordinates.reshape(-1, 3), obj.matrix_world)
+    points = [in_world(coordinates_of(obj.data), obj.matrix_world) for obj in objects]
+    return np.concatenate(points), np.mean(scanners, axis=0)
