@@ -8,9 +8,10 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatPrope
 from bpy_extras.io_utils import ImportHelper
 
 from ..reflcolor_addon.errors import ScanError
-from ..reflcolor_addon.grid_mesh import MAX_INCIDENCE_DEG, grid_mesh
+from ..reflcolor_addon.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.image_files import IMAGE_SUFFIXES
 from ..reflcolor_addon.inputs import scan_files
+from ..reflcolor_addon.object_arrays import object_arrays
 from ..reflcolor_addon.orientation import flipped
 from ..reflcolor_addon.readers import SCAN_SUFFIXES, read_scans
 from ..reflcolor_addon.readers.pair_description import describe_pair
@@ -127,7 +128,10 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         pair = [path for path in paths if path.suffix.lower() in IMAGE_SUFFIXES]
         sensor, range_scale, swap = self._sensor_model(), self.range_scale, self.swap_images
         flips = {"vertical": self.flip_vertical, "horizontal": self.flip_horizontal}
-        max_incidence_deg = degrees(self.max_incidence)
+        options = {
+            "max_incidence_deg": degrees(self.max_incidence),
+            "units_per_metre": 1 / context.scene.unit_settings.scale_length,
+        }
         if pair and (len(pair) != 2 or len(paths) != 2):
             raise ScanError(
                 told("{name}: pick two images together, one of range and one of reflectance", name=pair[0].name)
@@ -144,16 +148,16 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
                 if any(flips.values()):
                     scan = flipped(scan, **flips)
                 turned = [name for name, chosen in flips.items() if chosen]
-                yield scan, grid_mesh(scan, max_incidence_deg), scan_entry(scan, index, turned), inputs
+                yield object_arrays(scan, **options), scan_entry(scan, index, turned), inputs, scan.warnings
 
         return work
 
     def finish(self, context, result):
         is_first = not any(obj.reflcolor.rows for obj in bpy.data.objects)
-        for scan, mesh_data, entry, inputs in result:
-            obj = add_scan_object(context, scan, mesh_data)
-            record_import(obj, entry, inputs, scan.warnings)
-            tell(self, obj, told("Imported {name}", name=scan.name), scan.warnings)
+        for arrays, entry, inputs, warnings in result:
+            obj = add_scan_object(context, arrays)
+            record_import(obj, entry, inputs, warnings)
+            tell(self, obj, told("Imported {name}", name=arrays.name), warnings)
         if is_first:
             show_first(context, count=len(result))
 

@@ -33,7 +33,7 @@ def add_camera_and_lights(context, *objects):
     camera.location = view.position
     camera.rotation_euler = toward.to_track_quat("-Z", "Y").to_euler()
     camera.data.angle = math.radians(view.fov_deg)
-    camera.data.clip_start, camera.data.clip_end = toward.length / 1000, toward.length * 10
+    camera.data.clip_start, camera.data.clip_end = view.clip
     scene.collection.objects.link(camera)
     scene.camera = camera
     for name, direction, share in _LIGHTS:

@@ -5,8 +5,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..reflcolor_addon.errors import ScanError
-from ..reflcolor_addon.georeference import local_center, origin_shift, rigid_pose
-from ..reflcolor_addon.normalization import normalize
+from ..reflcolor_addon.georeference import origin_shift, rigid_pose
 from ..reflcolor_addon.scan import Scan
 from .images import write_image
 from .nodes import node_tree_of
@@ -23,45 +22,38 @@ CENTER = "reflcolor_center"
 _KINDS = {np.float32: "FLOAT", np.int32: "INT"}
 
 
-def add_scan_object(context, scan, mesh_data):
+def add_scan_object(context, arrays):
     """Make the object of a scan, with mesh, attributes, images and material; select it and make it active.
 
     Parameters
     ----------
     context : bpy.types.Context
-    scan : Scan
-    mesh_data : GridMesh
-        From ``grid_mesh(scan)``.
+    arrays : ObjectArrays
     """
     scene = context.scene
-    center = local_center(scan)
-    pose = scan.pose.copy()
-    pose[:3, 3] = scan.pose[:3, :3] @ center + scan.pose[:3, 3]
+    pose = arrays.pose.copy()
     shift = origin_shift(pose[:3, 3], scene.get(SHIFT))
-    per_metre = 1 / scene.unit_settings.scale_length
-    pose[:3, 3] = (pose[:3, 3] - shift) * per_metre
+    pose[:3, 3] = (pose[:3, 3] - shift) * arrays.units_per_metre
 
-    mesh = bpy.data.meshes.new(scan.name)
-    _fill_mesh(mesh, scan, mesh_data, (scan.points[scan.valid] - center) * per_metre)
-    obj = bpy.data.objects.new(scan.name, mesh)
+    mesh = bpy.data.meshes.new(arrays.name)
+    _fill_mesh(mesh, arrays)
+    obj = bpy.data.objects.new(arrays.name, mesh)
     obj.matrix_world = Matrix(pose)
     # Doubles: a shift of six digits does not fit into a float property.
     obj[SHIFT] = scene[SHIFT] = shift.tolist()
-    mesh[CENTER] = center.tolist()
-    height, width = scan.shape
+    mesh[CENTER] = arrays.center.tolist()
     state = obj.reflcolor
-    state.rows, state.cols = height, width
-    state.source = str(scan.source or "")
-    luminance, _ = normalize(scan.reflectance, scan.valid)
-    range_image, _ = normalize(scan.range, scan.valid)
-    state.reflectance_image = write_image(None, f"{scan.name} Reflectance", luminance / 255, is_data=False)
-    state.range_image = write_image(None, f"{scan.name} Range", range_image / 255, is_data=True)
+    state.rows, state.cols = arrays.shape
+    state.source = str(arrays.source or "")
+    name = f"{arrays.name} Reflectance"
+    state.reflectance_image = write_image(None, name, arrays.reflectance_image, is_data=False)
+    state.range_image = write_image(None, f"{arrays.name} Range", arrays.range_image, is_data=True)
     for image in (state.reflectance_image, state.range_image):
-        image.display_aspect = (scan.pixel_aspect, 1.0)
-    add_colors(obj, GRAY, np.repeat(np.rint(luminance).astype(np.uint8)[scan.valid, None], 3, axis=1))
-    if scan.color is not None:
-        add_colors(obj, SCANNED, scan.color[scan.valid])
-    mesh.materials.append(_material(scan.name))
+        image.display_aspect = (arrays.pixel_aspect, 1.0)
+    add_colors(obj, GRAY, arrays.gray)
+    if arrays.scanned is not None:
+        add_colors(obj, SCANNED, arrays.scanned)
+    mesh.materials.append(_material(arrays.name))
     show_colors(obj, GRAY)
 
     context.collection.objects.link(obj)
@@ -90,8 +82,7 @@ def scan_reader(obj):
     mesh, name, shape = obj.data, obj.name, (obj.reflcolor.rows, obj.reflcolor.cols)
     place = grid_indices(obj)
     measured = values_of(obj, "reflectance", np.float32)
-    coordinates = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", coordinates)
+    coordinates = coordinates_of(mesh)
     metres = bpy.context.scene.unit_settings.scale_length
     center = np.array(mesh.get(CENTER, (0, 0, 0)))
     pose = rigid_pose(obj.matrix_world, metres, center)
@@ -99,7 +90,7 @@ def scan_reader(obj):
     def read():
         reflectance, points, valid = np.zeros(shape, np.float32), np.zeros((*shape, 3)), np.zeros(shape, bool)
         reflectance[place], valid[place] = measured, True
-        points[place] = coordinates.reshape(-1, 3).astype(np.float64) * metres + center
+        points[place] = coordinates.astype(np.float64) * metres + center
         return Scan(name=name, points=points, reflectance=reflectance, valid=valid, pose=pose)
 
     return read
@@ -136,6 +127,17 @@ def show_like_reflectance(obj, image):
         image.display_aspect = reflectance.display_aspect
 
 
+def coordinates_of(mesh):
+    """Return (N, 3) float32, where the vertices of a mesh are."""
+    coordinates = np.empty(3 * len(mesh.vertices), np.float32)
+    # Many times faster than one by one; but in Edit Mode attributes are shown as empty.
+    if mesh.is_editmode:
+        mesh.vertices.foreach_get("co", coordinates)
+    else:
+        mesh.attributes["position"].data.foreach_get("vector", coordinates)
+    return coordinates.reshape(-1, 3)
+
+
 def seed_vertices(obj, rows, cols):
     """Return where pixels of the scan are in the world, and which of them have a vertex.
 
@@ -154,10 +156,8 @@ def seed_vertices(obj, rows, cols):
     vertex[grid_rows * width + grid_cols] = np.arange(len(grid_rows))
     inside = (rows < obj.reflcolor.rows) & (cols < width)
     index = np.where(inside, vertex[np.where(inside, rows * width + cols, 0)], -1)
-    coordinates = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", coordinates)
     known = index >= 0
-    local = coordinates.reshape(-1, 3)[np.where(known, index, 0)]
+    local = coordinates_of(mesh)[np.where(known, index, 0)]
     return local @ np.array(obj.matrix_world.to_3x3(), np.float32).T + np.array(obj.matrix_world.translation), known
 
 
@@ -260,25 +260,21 @@ def look_at(obj, name):
                 area.spaces.active.shading.color_type = "VERTEX"
 
 
-def _fill_mesh(mesh, scan, mesh_data, coordinates):
+def _fill_mesh(mesh, arrays):
     """Vertices, faces, UV map and attributes, in bulk."""
-    faces = len(mesh_data.quads)
-    mesh.vertices.add(len(coordinates))
-    mesh.vertices.foreach_set("co", coordinates.astype(np.float32).ravel())
-    mesh.loops.add(4 * faces)
-    mesh.loops.foreach_set("vertex_index", mesh_data.quads.ravel())
+    corners, faces = arrays.corners, arrays.corners.size // 4
+    mesh.vertices.add(arrays.coordinates.size // 3)
+    mesh.loops.add(corners.size)
     mesh.polygons.add(faces)
-    mesh.polygons.foreach_set("loop_start", np.arange(0, 4 * faces, 4, dtype=np.int32))
+    # As attributes they are written in one piece, as "co" and "vertex_index" one by one.
+    mesh.attributes["position"].data.foreach_set("vector", arrays.coordinates)
+    if faces:
+        mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
+        mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, 4, dtype=np.int32))
     mesh.update(calc_edges=True)
-    uv = mesh.uv_layers.new(name="Scan Grid")
-    uv.uv.foreach_set("vector", mesh_data.uv.ravel())
-    for name, kind, values in (
-        ("reflectance", "FLOAT", scan.reflectance[scan.valid]),
-        ("range", "FLOAT", scan.range[scan.valid].astype(np.float32)),
-        ("grid_row", "INT", mesh_data.rows),
-        ("grid_col", "INT", mesh_data.cols),
-    ):
-        mesh.attributes.new(name, kind, "POINT").data.foreach_set("value", np.ascontiguousarray(values))
+    mesh.uv_layers.new(name="Scan Grid").uv.foreach_set("vector", arrays.uv)
+    for name, values in arrays.values.items():
+        mesh.attributes.new(name, _KINDS[values.dtype.type], "POINT").data.foreach_set("value", values)
 
 
 def _check_readable(obj):

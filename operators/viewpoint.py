@@ -1,15 +1,11 @@
 """Looking at a scan from where the scanner saw it."""
 
-from math import atan, degrees
-
 import bpy
 import numpy as np
 from mathutils import Vector
 
-from ..reflcolor_addon.framing import frame
-
-# Blender's 3D View has a sensor of twice the usual width, in millimetres.
-_VIEW_SENSOR_MM = 72.0
+from ..reflcolor_addon.framing import frame, frame_in_region, in_world
+from .scan_object import coordinates_of
 
 
 def view_of(objects, aspect):
@@ -17,8 +13,7 @@ def view_of(objects, aspect):
 
     Several are looked at from where their scanners stood on an average.
     """
-    points = np.concatenate([_points_of(obj) for obj in objects])
-    return frame(points, np.mean([obj.matrix_world.translation for obj in objects], axis=0), aspect=aspect)
+    return frame(*_points_and_scanner(objects), aspect=aspect)
 
 
 def show_first(context, count):
@@ -43,24 +38,18 @@ def look_from_scanner(context, obj, area):
     space, region = area.spaces.active, next(region for region in area.regions if region.type == "WINDOW")
     sidebar = next(region for region in area.regions if region.type == "UI")
     covered = sidebar.width if space.show_region_ui and context.preferences.system.use_region_overlap else 0
-    free = max(1, region.width - covered)
-    view = view_of([obj], free / max(1, region.height))
-    toward = Vector(view.target - view.position)
-    # The lens is that of the region's wider side, what is free of it has less.
-    widest = max(region.width, region.height)
-    lens, part = (
-        degrees(2 * atan(_VIEW_SENSOR_MM / 2 / space.lens * share)) for share in (1, max(free, region.height) / widest)
+    view = frame_in_region(
+        *_points_and_scanner([obj]), size=(region.width, region.height), covered=covered, focal_mm=space.lens
     )
     eye = space.region_3d
     eye.view_perspective = "PERSP"
-    eye.view_rotation = toward.to_track_quat("-Z", "Y")
-    eye.view_distance = view.distance_through(part)
-    eye.view_location = view.target_beside(eye.view_distance, lens, covered / widest)
+    eye.view_rotation = Vector(view.target - view.position).to_track_quat("-Z", "Y")
+    eye.view_distance = view.distance
+    eye.view_location = view.target
 
 
-def _points_of(obj):
-    """(N, 3) float64, the vertices in the world."""
-    coordinates = np.empty(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", coordinates)
-    matrix = np.array(obj.matrix_world)
-    return coordinates.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+def _points_and_scanner(objects):
+    """(N, 3) float64, the vertices of the objects in the world, and (3,), the middle of their scanners' places."""
+    scanners = [np.array(obj.matrix_world.translation) for obj in objects]
+    points = [in_world(coordinates_of(obj.data), obj.matrix_world) for obj in objects]
+    return np.concatenate(points), np.mean(scanners, axis=0)

@@ -7,7 +7,7 @@ import bpy
 
 from ..reflcolor_addon.atomic import written_atomically
 from ..reflcolor_addon.errors import OutputError
-from ..reflcolor_addon.grid_mesh import grid_mesh
+from ..reflcolor_addon.object_arrays import object_arrays
 from .colorized_object import show_colorization
 from .provenance import record_provenance
 from .render import add_camera_and_lights, render
@@ -54,7 +54,7 @@ def write_results(results, paths, picture, progress):
 
 
 def _add_object(context, scan, colorization, report):
-    obj = add_scan_object(context, scan, grid_mesh(scan))
+    obj = add_scan_object(context, object_arrays(scan))
     append_seeds(obj, colorization.seeds)
     show_colorization(obj, colorization)
     record_provenance(obj, report)

@@ -8,18 +8,25 @@ import numpy as np
 _WIDE_DEG = 200.0
 _OUTSIDE_FOV_DEG = 45.0
 _OUTSIDE_RISE_DEG = 40.0
-# The widest view that does not look distorted.
+# The most that a scan may take of a picture, across or down, without looking distorted.
 _WIDEST_DEG = 70.0
-# Back, right and up from the scanner, in near ranges: enough to see that the picture is no photo.
-_ASIDE = np.array([0.8, 0.35, 0.35])
-_BACKING_OFF = 1.5
-_STEPS = 24
+# From the scanner, in near ranges: back, and both right and up, which tells the picture from a photo. The farther
+# aside, the more is seen of the gaps behind near things.
+_BACK, _ASIDE = 0.5, 0.12
+_BACKING_OFF = 1.25
+_STEPS = 40
 _CENTERINGS = 8
 _MARGIN = 1.05
 # Percent of the points on each side that may lie outside the picture: stray returns must not shrink all the others.
 _STRAY = 0.05
+# Enough points to tell that from; of more, these are drawn.
+_SAMPLE = 20_000
+# In distances of the target: what is nearer or farther is not shown.
+_CLIP = (1e-3, 1e3)
 # Metres; a scan of one point has no size to go by.
 _CLOSEST = 0.1
+# Blender's 3D View has a sensor of twice the usual width.
+_REGION_SENSOR_MM = 72.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -30,37 +37,36 @@ class View:
     target: np.ndarray
     fov_deg: float
 
-    def distance_through(self, fov_deg):
-        """Return how far from the target, in metres, a lens of another field of view (degrees) shows as much of it."""
-        wanted, given = (np.tan(np.radians(min(angle, 170.0)) / 2) for angle in (self.fov_deg, fov_deg))
-        return float(np.linalg.norm(self.target - self.position) * wanted / given)
+    @property
+    def distance(self):
+        """Metres from the position to the target."""
+        return float(np.linalg.norm(self.target - self.position))
 
-    def target_beside(self, distance, fov_deg, covered):
-        """Return the (3,) place to look at so that the target is in the middle of what is not covered of a picture.
+    @property
+    def clip(self):
+        """(start, end) of what is shown, metres from the position."""
+        return self.distance * _CLIP[0], self.distance * _CLIP[1]
 
-        ``covered`` is the share of its width that is hidden at its right; the picture has the field of view ``fov_deg``
-        across and is taken from ``distance`` metres.
-        """
-        forward = self.target - self.position
-        right = np.cross(forward, [0.0, 0.0, 1.0])
-        length = np.linalg.norm(right)
-        across = 2 * distance * np.tan(np.radians(fov_deg) / 2)
-        return self.target + (right / length * across * covered / 2 if length > 1e-9 else 0.0)
+
+def in_world(coordinates, matrix):
+    """Return (N, 3) float64, points of shape (N, 3) brought to the world by a (4, 4) matrix."""
+    matrix = np.asarray(matrix, np.float64)
+    return coordinates.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def frame(points, scanner, *, aspect):
     """Return a view that shows all of a scan's surface from the side that was scanned.
 
-    A scan of a window of directions is seen from a little behind, above and beside the scanner, so that near and far
-    have the room that they have in the scan. A scan all around is seen obliquely from above, as one looks into a
-    doll's house.
+    A scan of a window of directions is seen from about the scanner's place, so that near and far have the room that
+    they have in the scan; from farther back where it is wider than a picture can be. A scan all around is seen
+    obliquely from above, as one looks into a doll's house.
 
     Parameters
     ----------
     points : (N, 3) float64
         Points with a return, world metres, Z up.
     scanner : (3,) float64
-        The scanner's place.
+        The scanner's place; of several scans, the middle of their scanners'.
     aspect : float
         Width of the picture over its height.
 
@@ -68,6 +74,7 @@ def frame(points, scanner, *, aspect):
     -------
     View
     """
+    points = _sample(points)
     rays = points - scanner
     distance = np.maximum(np.linalg.norm(rays, axis=1), 1e-9)
     mean = (rays / distance[:, None]).mean(axis=0)
@@ -77,12 +84,58 @@ def frame(points, scanner, *, aspect):
     right = np.array([heading[1], -heading[0], 0.0])
     if _covered_deg(rays) > _WIDE_DEG:
         return _from_outside(points, heading, right, aspect)
-    away = (-heading * _ASIDE[0] + right * _ASIDE[1] + [0, 0, _ASIDE[2]]) * np.percentile(distance, 5)
+    near = np.percentile(distance, 5)
+    beside = scanner + near * _ASIDE * (right + [0, 0, 1])
     for step in range(_STEPS):
-        view = _looking_from(scanner + away * _BACKING_OFF**step, points, aspect)
-        if view.fov_deg <= _WIDEST_DEG:
+        view, taken_deg = _looking_from(beside - near * _BACK * _BACKING_OFF**step * heading, points, aspect)
+        if taken_deg <= _WIDEST_DEG:
             break
     return view
+
+
+def frame_in_region(points, scanner, *, size, covered, focal_mm):
+    """Return a view that shows a scan as `frame` does, but through the lens of a region of Blender's 3D View.
+
+    Parameters
+    ----------
+    points, scanner
+        As in `frame`.
+    size : (width, height) of int
+        Pixels of the region.
+    covered : int
+        Pixels at its right that a sidebar hides: the scan is shown in what is left.
+    focal_mm : float
+        The 3D View's focal length.
+
+    Returns
+    -------
+    View
+        Of the whole region, the target in its middle.
+    """
+    points = _sample(points)
+    width, height = (max(1, length) for length in size)
+    free = max(1, width - covered)
+    view = frame(points, scanner, aspect=free / height)
+    # The focal length is that of the wider side.
+    pixel = _REGION_SENSOR_MM / focal_mm / max(width, height)
+    forward = (view.target - view.position) / view.distance
+    forward = forward + _across(forward)[0] * (width - free) / 2 * pixel
+    forward = forward / np.linalg.norm(forward)
+    across, offsets = np.stack(_across(forward)), points - view.position
+    depth, seen = offsets @ forward, offsets @ across.T
+    middle, half = np.array([free - width, 0]) / 2 * pixel, np.array([free, height]) / 2 * pixel / _MARGIN
+    before, after = half - middle, half + middle
+    # Moved back by b and aside by s, a camera has in what is free of its picture what is at (x, depth), if
+    # -before (depth + b) <= x - s <= after (depth + b). For all points together that is
+    # highest - after b <= s <= lowest + before b, which leaves room for s from some b on.
+    lowest = np.percentile(seen + before * depth[:, None], _STRAY, axis=0)
+    highest = np.percentile(seen - after * depth[:, None], 100 - _STRAY, axis=0)
+    back = np.max((highest - lowest) / (before + after))
+    aside = (lowest + highest + (before - after) * back) / 2
+    position = view.position - back * forward + aside @ across
+    distance = max(float(np.median(depth) + back), _CLOSEST)
+    fov_deg = np.degrees(2 * np.arctan(_REGION_SENSOR_MM / focal_mm / 2))
+    return View(position=position, target=position + forward * distance, fov_deg=float(fov_deg))
 
 
 def _from_outside(points, heading, right, aspect):
@@ -91,27 +144,26 @@ def _from_outside(points, heading, right, aspect):
     back = (-heading + right / 2) / np.linalg.norm(-heading + right / 2) * np.cos(rise) + [0, 0, np.sin(rise)]
     reach = max(np.linalg.norm(high - low) / 2, _CLOSEST)
     for step in range(_STEPS):
-        view = _looking_from((low + high) / 2 + back * reach * (1 + 0.15 * step), points, aspect)
+        view, _ = _looking_from((low + high) / 2 + back * reach * (1 + 0.15 * step), points, aspect)
         if view.fov_deg <= _OUTSIDE_FOV_DEG:
             break
     return view
 
 
 def _looking_from(position, points, aspect):
-    """The view from a place that holds the points; wider than any lens where some are behind it."""
+    """The view from a place that holds the points, and the degrees that they take across or down, whichever is more.
+
+    Both are wider than any lens where some points are behind the place.
+    """
     offsets = points - position
     forward = offsets.mean(axis=0)
     forward = forward / max(np.linalg.norm(forward), 1e-9)
     for _ in range(_CENTERINGS):
-        right = np.cross(forward, [0.0, 0.0, 1.0])
-        if np.linalg.norm(right) < 1e-6:
-            right = np.array([1.0, 0.0, 0.0])
-        right = right / np.linalg.norm(right)
-        up = np.cross(right, forward)
+        right, up = _across(forward)
         depth = offsets @ forward
         in_front = depth > 1e-3 * max(1e-9, depth.max())
         if in_front.mean() < 1 - _STRAY / 100:
-            return View(position=position, target=position + forward, fov_deg=180.0)
+            return View(position=position, target=position + forward, fov_deg=180.0), 180.0
         seen = np.stack([offsets[in_front] @ right, offsets[in_front] @ up], axis=1) / depth[in_front, None]
         low, high = np.percentile(seen, (_STRAY, 100 - _STRAY), axis=0)
         aim = forward + right * (low[0] + high[0]) / 2 + up * (low[1] + high[1]) / 2
@@ -119,11 +171,25 @@ def _looking_from(position, points, aspect):
     half_width, half_height = (high - low) / 2 * _MARGIN
     widest = max(half_width, half_height * aspect) if aspect >= 1 else max(half_width / aspect, half_height)
     distance = max(float(np.median(depth)), _CLOSEST)
-    fov_deg = np.degrees(2 * np.arctan(max(widest, 0.01)))
-    return View(position=position, target=position + forward * distance, fov_deg=float(fov_deg))
+    fov_deg, taken_deg = (2 * np.degrees(np.arctan(max(half, 0.01))) for half in (widest, max(half_width, half_height)))
+    return View(position=position, target=position + forward * distance, fov_deg=float(fov_deg)), taken_deg
+
+
+def _across(forward):
+    """Directions to the right and up, as seen by who looks forward."""
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right = right / np.linalg.norm(right) if np.linalg.norm(right) > 1e-6 else np.array([1.0, 0.0, 0.0])
+    return right, np.cross(right, forward)
+
+
+def _sample(points):
+    """Of very many points some, which are spread alike."""
+    if len(points) <= _SAMPLE:
+        return points
+    return points[np.random.default_rng(0).integers(0, len(points), _SAMPLE)]
 
 
 def _covered_deg(rays):
-    """Degrees of the horizon in which there are points, in bins of five."""
-    bins = np.unique(np.floor(np.degrees(np.arctan2(rays[:, 1], rays[:, 0])) / 5).astype(int))
-    return 5.0 * bins.size
+    """Degrees of the horizon in which there are points, but for stray ones, in bins of five."""
+    bins = np.floor(np.degrees(np.arctan2(rays[:, 1], rays[:, 0])) / 5).astype(int)
+    return 5.0 * np.count_nonzero(np.bincount(bins - bins.min()) > len(rays) * _STRAY / 100)

@@ -70,6 +70,41 @@ def test_faces_look_at_the_scanner_and_spare_missing_corners(blender, small):
     assert all(polygon.normal.dot(polygon.center) < 0 for polygon in mesh.polygons)
 
 
+def test_the_mesh_is_what_blender_makes_of_its_vertices_and_faces_one_by_one(blender, small):
+    blender.ops.reflcolor.import_scan(filepath=str(small))
+    (scan,) = read_scans(small)
+    plain = blender.data.meshes.new("plain")
+    plain.from_pydata(scan.points[scan.valid].astype(np.float32), [], grid_mesh(scan).quads)
+    meshes = blender.context.active_object.data, plain
+    for elements, name, dtype, width in (
+        ("vertices", "co", np.float32, 3),
+        ("vertices", "normal", np.float32, 3),
+        ("edges", "vertices", np.int32, 2),
+        ("loops", "vertex_index", np.int32, 1),
+        ("loops", "edge_index", np.int32, 1),
+        ("polygons", "loop_start", np.int32, 1),
+        ("polygons", "loop_total", np.int32, 1),
+        ("polygons", "normal", np.float32, 3),
+    ):
+        found, expected = (np.empty(width * len(getattr(mesh, elements)), dtype) for mesh in meshes)
+        for mesh, array in zip(meshes, (found, expected), strict=True):
+            getattr(mesh, elements).foreach_get(name, array)
+        np.testing.assert_array_equal(found, expected, err_msg=f"{elements}.{name}")
+
+
+def test_a_scan_of_a_single_return_has_a_vertex_and_no_face(blender, tmp_path):
+    valid = np.zeros((6, 10), bool)
+    valid[2, 3] = True
+    path = write_small_ptx(tmp_path / "one.ptx", replace(random_scan(), valid=valid))
+    blender.ops.reflcolor.import_scan(filepath=str(path))
+    mesh = blender.context.active_object.data
+    assert (len(mesh.vertices), len(mesh.edges), len(mesh.polygons)) == (1, 0, 0)
+    (scan,) = read_scans(path)
+    np.testing.assert_array_equal(
+        coordinates(blender.context.active_object), scan.points[scan.valid].astype(np.float32)
+    )
+
+
 def test_the_uv_map_is_the_scan_grid(blender, small):
     blender.ops.reflcolor.import_scan(filepath=str(small))
     obj = blender.context.active_object

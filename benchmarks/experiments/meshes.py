@@ -29,7 +29,8 @@ class Renderer:
         self._objects, self._render = (
             importlib.import_module(f"{self._session.EXTENSION}.operators.{name}") for name in names
         )
-        self._grid_mesh = importlib.import_module(f"{self._session.EXTENSION}.reflcolor_addon.grid_mesh").grid_mesh
+        core = importlib.import_module(f"{self._session.EXTENSION}.reflcolor_addon.object_arrays")
+        self._object_arrays = core.object_arrays
 
     def picture(self, scans, colors=None, view=None):
         """Return the (800, 1280, 3) uint8 picture of the meshes of several scans together.
@@ -45,7 +46,7 @@ class Renderer:
         bpy, objects = self._bpy, self._objects
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         context = bpy.context
-        made = [objects.add_scan_object(context, scan, self._grid_mesh(scan)) for scan in scans]
+        made = [objects.add_scan_object(context, self._object_arrays(scan)) for scan in scans]
         for item, scan, rgb in zip(made, scans, colors, strict=True) if colors else ():
             objects.add_colors(item, objects.COLORIZED, rgb[scan.valid])
             objects.show_colors(item, objects.COLORIZED)

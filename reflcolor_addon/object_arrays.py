@@ -1,0 +1,99 @@
+"""A scan's mesh and images as the arrays that Blender stores, made where no window waits for them."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .georeference import local_center
+from .grid_mesh import MAX_INCIDENCE_DEG, grid_mesh
+from .normalization import normalize
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ObjectArrays:
+    """What an object of Blender is made of; N vertices, one per pixel with a return in reading order, and F faces.
+
+    Parameters
+    ----------
+    name : str
+    source : Path or None
+        As the scan has them.
+    shape : (H, W)
+    pixel_aspect : float
+        Width of a pixel over its height.
+    units_per_metre : float
+        Of the coordinates.
+    center : (3,) float64
+        What the coordinates are measured from: metres, in the scanner's frame.
+    pose : (4, 4) float64
+        Coordinates to world, but in metres.
+    coordinates : (3 N,) float32
+    corners : (4 F,) int32
+        Vertices of the faces, one face after the other.
+    uv : (8 F,) float32
+        Of the corners.
+    values : dict of (N,) float32 or int32
+        By the attribute's name.
+    gray, scanned : (N, 3) uint8
+        The reflectance and the scan's own color; ``scanned`` is None where it has none.
+    reflectance_image, range_image : (H, W) float32
+        0..1.
+    """
+
+    name: str
+    source: Path | None
+    shape: tuple[int, int]
+    pixel_aspect: float
+    units_per_metre: float
+    center: np.ndarray
+    pose: np.ndarray
+    coordinates: np.ndarray
+    corners: np.ndarray
+    uv: np.ndarray
+    values: dict[str, np.ndarray]
+    gray: np.ndarray
+    scanned: np.ndarray | None
+    reflectance_image: np.ndarray
+    range_image: np.ndarray
+
+
+def object_arrays(scan, *, units_per_metre=1.0, max_incidence_deg=MAX_INCIDENCE_DEG):
+    """Return the ObjectArrays of a scan.
+
+    Parameters
+    ----------
+    scan : Scan
+    units_per_metre : float
+        Blender's units in a metre.
+    max_incidence_deg : float
+        As in `grid_mesh`.
+    """
+    mesh, valid = grid_mesh(scan, max_incidence_deg), scan.valid
+    center = local_center(scan)
+    pose = scan.pose.copy()
+    pose[:3, 3] = scan.pose[:3, :3] @ center + scan.pose[:3, 3]
+    luminance, _ = normalize(scan.reflectance, valid)
+    range_image, _ = normalize(scan.range, valid)
+    return ObjectArrays(
+        name=scan.name,
+        source=scan.source,
+        shape=scan.shape,
+        pixel_aspect=scan.pixel_aspect,
+        units_per_metre=units_per_metre,
+        center=center,
+        pose=pose,
+        coordinates=((scan.points[valid] - center) * units_per_metre).astype(np.float32).ravel(),
+        corners=mesh.quads.ravel(),
+        uv=mesh.uv.ravel(),
+        values={
+            "reflectance": scan.reflectance[valid],
+            "range": scan.range[valid].astype(np.float32),
+            "grid_row": mesh.rows,
+            "grid_col": mesh.cols,
+        },
+        gray=np.repeat(np.rint(luminance).astype(np.uint8)[valid, None], 3, axis=1),
+        scanned=None if scan.color is None else scan.color[valid],
+        reflectance_image=luminance / 255,
+        range_image=range_image / 255,
+    )
