@@ -48,6 +48,21 @@ def test_a_gray_transparent_or_16_bit_file_is_taken_as_its_colors(room, photo, t
     assert len(match_seeds(room, [path], AS_PUBLISHED)) > 10
 
 
+def test_a_black_and_white_photo_is_told(room, photo):
+    gray = np.repeat(photo[..., :1], 3, axis=-1)
+    matching = match_photos(room, [("old.png", gray), ("new.png", photo)], AS_PUBLISHED)
+    assert matching.warnings == ("old.png: is black and white, it gives no colors",)
+
+
+def test_two_photos_of_one_name_are_refused(room, photo, tmp_path):
+    paths = [tmp_path / folder / "photo.png" for folder in "ab"]
+    for path in paths:
+        path.parent.mkdir()
+        assert cv2.imwrite(str(path), photo)
+    with pytest.raises(ImageError, match=r"b.photo\.png: another photo has the same name; give each photo once"):
+        match_seeds(room, paths, AS_PUBLISHED)
+
+
 def test_two_hundred_megapixels_are_reduced_and_their_points_counted_in_full(room, photo):
     huge = cv2.resize(photo, (16384, 12288), interpolation=cv2.INTER_NEAREST)
     (opened,) = opened_photos([huge])

@@ -98,7 +98,7 @@ def test_a_weak_camera_that_nothing_confirms_is_dropped(monkeypatch, scans, view
     first, second = located(moved, views, photo)
     assert first.verified
     assert not second.verified
-    assert second.note == "verified on first, where it shows little of second"
+    assert second.note == "shows first; too little of second to take colors from"
 
 
 def test_where_poses_are_wrong_each_scan_that_is_beyond_doubt_counts(monkeypatch, scans, views, photo, proof):

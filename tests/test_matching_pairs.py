@@ -33,6 +33,15 @@ def test_four_pairs_place_a_photo_of_usual_focal_length(camera):
     assert error < 0.02
 
 
+def test_of_two_cameras_that_see_four_pairs_alike_the_one_on_the_scanners_side_is_taken():
+    # Three points on a far wall and one near: seen from behind the wall they lie nearly the same.
+    points = np.array([[0.26, 1.8, -0.06], [0.62, 1.78, -0.11], [-0.15, 1.75, 0.01], [-0.03, 0.29, -0.11]])
+    photo = PhotoImage("photo", np.zeros((720, 1280, 3), np.uint8))
+    xy = np.array([[703.0, 416], [833, 434], [504, 395], [472, 645]])
+    found, _, _ = camera_from_pairs(points, xy, photo)
+    assert found.center[1] < 0
+
+
 def test_pairs_clicked_two_pixels_off_do_as_well(camera):
     xy = camera.project(POINTS)[0] + np.random.default_rng(3).normal(0, 2, (len(POINTS), 2))
     found, _, _ = camera_from_pairs(POINTS, xy, PHOTO)

@@ -8,7 +8,8 @@ import painted_room
 import pytest
 
 from reflcolor_addon import Cancelled, ImageError, Scan, Seeds, SeedsError, Settings
-from reflcolor_addon.matching import draw_matches, match_photos, match_seeds, match_site
+from reflcolor_addon.matching import draw_matches, location, match_photos, match_seeds, match_site, registration
+from reflcolor_addon.matching.registration import Registration
 
 FEW = Settings(slic_segments=150)
 
@@ -123,6 +124,35 @@ def test_six_pairs_picked_by_hand_place_a_photo_from_the_side(room):
     assert (chroma_error(matching.seeds, room)[posed] < 40).mean() > 0.8
 
 
+def test_pairs_that_place_a_photo_where_it_shows_nothing_are_told(room, noise):
+    # From below the floor and behind the wall only their backs are seen.
+    camera = painted_room.camera((0.0, 9.0, -9.0), yaw_deg=180, pitch_deg=50)
+    xy, depth = camera.project(room.points)
+    inside = room.valid & (depth > 0) & (xy > 10).all(axis=-1) & (xy < [470, 350]).all(axis=-1)
+    rows, cols = np.argwhere(inside)[:: inside.sum() // 7][:6].T
+    hand = Seeds(rows, cols, room.color[rows, cols], photos=("photo 1",) * 6, photo_xy=xy[rows, cols])
+    matching = match_photos(room, [noise], FEW, hand=hand)
+    assert not matching.photos[0].verified
+    assert matching.photos[0].note.endswith("so placed, it shows nothing of the scan")
+    assert "room: photo 1, so placed, shows nothing of the scan; check the pairs, and add some far from the others" in (
+        matching.warnings
+    )
+    assert "pose" not in matching.seeds.reason
+
+
+def test_a_pair_that_does_not_fit_is_named(room):
+    camera = painted_room.camera((0.9, 0.3, 0.2), yaw_deg=-9)
+    xy, _ = camera.project(room.points)
+    inside = room.valid & (xy > 10).all(axis=-1) & (xy < [470, 350]).all(axis=-1)
+    rows, cols = np.argwhere(inside)[:: inside.sum() // 8][:8].T
+    picked = xy[rows, cols]
+    picked[2] = (picked[2] + [170, 120]) % [480, 360]
+    hand = Seeds(rows, cols, room.color[rows, cols], photos=("photo 1",) * 8, photo_xy=picked)
+    matching = match_photos(room, [painted_room.photo(camera)], FEW, hand=hand)
+    place = f"row {rows[2]}, column {cols[2]}"
+    assert f"photo 1: pair 3 ({place}) does not fit the others; its color is kept, check it" in matching.warnings
+
+
 def test_kept_seeds_stay_as_they_are_and_nothing_is_found_on_their_pixels(matching, room, turned):
     found = matching.seeds
     kept = Seeds(
@@ -147,6 +177,22 @@ def test_scans_of_a_site_share_what_they_learn(room, turned):
     first, second = match_site([room, unseen], [turned], FEW)
     assert first.photos[0].verified
     assert len(second.seeds) > 0
+
+
+def test_a_scan_that_no_photo_shows_is_guessed_from_the_others_and_told(monkeypatch, room, turned):
+    # Here the reflectance tells the color, red for bright and blue for dark.
+    room = replace(room, reflectance=cv2.cvtColor(room.color, cv2.COLOR_RGB2GRAY).astype(np.float32))
+    gray = cv2.cvtColor(turned, cv2.COLOR_RGB2GRAY)
+    photo = np.dstack([gray, np.full_like(gray, 90), 255 - gray])
+
+    def register(views, photo, *, step):
+        return registration.register(views, photo, step=step) if views.scan is room else Registration.nothing()
+
+    monkeypatch.setattr(location, "register", register)
+    first, second = match_site([room, replace(room, name="copy")], [photo], FEW)
+    assert first.photos[0].verified
+    assert set(second.seeds.reason) == {"appearance"}
+    assert second.warnings[-1] == "copy: no photo shows it; all its colors are guessed from the other scans"
 
 
 def test_a_scan_with_one_percent_of_returns_gives_seeds(room, turned):

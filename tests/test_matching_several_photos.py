@@ -1,11 +1,13 @@
 """Transfer of colors, and several photos of one site."""
 
+from dataclasses import replace
+
 import numpy as np
 import painted_room
 import pytest
 
 from reflcolor_addon.matching.hog_matching import square_image
-from reflcolor_addon.matching.photo_image import PhotoImage
+from reflcolor_addon.matching.photo_image import PhotoImage, visible
 from reflcolor_addon.matching.scan_image import toned
 from reflcolor_addon.matching.several_photos import blended, gains
 from reflcolor_addon.matching.transfer import seen_by
@@ -49,6 +51,29 @@ def test_what_the_box_hides_from_the_camera_gets_no_color(room, image):
     hidden = behind & (x > 0.5) & (x < 1.3) & (z < 0.0)
     assert hidden.sum() > 50
     assert seen.usable[hidden].mean() < 0.05
+
+
+def test_what_lies_behind_a_pane_of_glass_is_not_seen(room):
+    # A window in the back wall, without a return, and beside it pixels of what a camera would see through it.
+    camera = painted_room.camera((-1.0, 1.0, 0.0), yaw_deg=0)
+    wall = room.valid & (room.points[..., 1] > 4.99)
+    rows, cols = (np.arange(length) for length in room.shape)
+    window = wall & (np.abs(rows - 50) < 8)[:, None] & (np.abs(cols - 80) < 10)
+    beyond = wall & (np.abs(rows - 50) < 4)[:, None] & (np.abs(cols - 120) < 6)
+    assert window.sum() > 200 and beyond.sum() > 50
+    points = room.points.copy()
+    pane = room.points[window].mean(axis=0)
+    points[beyond] = camera.center + 1.4 * (pane - camera.center) + 0.1 * (points[beyond] - points[beyond].mean(axis=0))
+    scan = replace(room, points=points, valid=room.valid & ~window)
+    image = square_image(scan, toned(scan, "percentiles"))
+    np.testing.assert_allclose(image.panes.mean(axis=0), pane, atol=0.05)
+    np.testing.assert_allclose(image.panes[:, 1], 5.0, atol=0.05)
+    xy, depth = camera.project(image.points)
+    seen, through = (visible(camera, image, xy, depth, panes=panes) for panes in (image.panes, None))
+    chosen = beyond[np.ix_(image.rows, image.cols)]
+    assert through[chosen].mean() > 0.9
+    assert seen[chosen].mean() < 0.05
+    assert seen[wall[np.ix_(image.rows, image.cols)] & image.valid & ~chosen].mean() > 0.6
 
 
 def test_seeds_keep_a_margin_to_jump_edges(image):

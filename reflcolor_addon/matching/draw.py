@@ -32,7 +32,7 @@ def draw_matches(scan, photos, seeds):
     (H, W, 3) uint8
         The reflectance on square pixels with the seeds in their colors, the photos beside it, and lines between; green
         for ``pose``, blue for ``homography``, orange for ``appearance``, magenta for ``hand``. Of very many seeds every
-        so manieth has a line.
+        so manieth has a line, and none has whose confidence is 0: its color is no place's.
     """
     import cv2
 
@@ -54,7 +54,7 @@ def draw_matches(scan, photos, seeds):
     ).reshape(-1, 2)
     every = max(1, -(-len(seeds) // _MOST_LINES))
     for index, (start, name, xy) in enumerate(zip(starts, seeds.photos, seeds.photo_xy, strict=True)):
-        if name in places and np.isfinite(xy).all() and index % every == 0:
+        if name in places and np.isfinite(xy).all() and index % every == 0 and seeds.confidence[index] != 0:
             left, photo = places[name]
             end = (left + xy[0] * _HEIGHT / photo.height, xy[1] * _HEIGHT / photo.height)
             color = _REASON_COLORS.get(seeds.reason[index], _PLAIN)

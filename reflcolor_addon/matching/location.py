@@ -35,11 +35,16 @@ class Location:
     @property
     def beyond_doubt(self):
         """Whether it need not give way to what another scan says."""
-        return self.verified and (self.reason == "hand" or self.registration.beyond_doubt)
+        return self.verified and (self.by_hand or self.registration.beyond_doubt)
+
+    @property
+    def by_hand(self):
+        """Whether it rests on pairs that a person picked."""
+        return self.reason == "hand"
 
     @property
     def _order(self):
-        return self.reason == "hand", self.registration.evidence.rank
+        return self.by_hand, self.registration.evidence.rank
 
 
 def located(scans, views, hand, photo, step):
@@ -90,7 +95,7 @@ def _known_from(anchor, location, scan, views, photo, step):
     again = confirmed(views, photo, _carried(location.registration.model, anchor.pose, scan.pose))
     if again.accepted:
         return _judged(scan, photo, again)
-    return Location(again, False, None, f"verified on {anchor.name}, where it shows little of {scan.name}")
+    return Location(again, False, None, f"shows {anchor.name}; too little of {scan.name} to take colors from")
 
 
 def _judged(scan, photo, registration):
@@ -126,10 +131,15 @@ def _by_hand(scan, views, hand, photo, step):
     step(f"{photo.name}: refining the picked pairs")
     refined = confirmed(views, photo, camera)
     registration = refined if refined.accepted else Registration(camera, refined.evidence, "hand")
-    slips = f", pair {np.flatnonzero(mine)[left_out[0]] + 1} left out as wrong" if len(left_out) else ""
+    slips, warnings = "", ()
+    if len(left_out):
+        slip = np.flatnonzero(mine)[left_out[0]]
+        slips = f", pair {slip + 1} left out as wrong"
+        place = f"row {hand.rows[slip]}, column {hand.cols[slip]}"
+        warnings = (f"{photo.name}: pair {slip + 1} ({place}) does not fit the others; its color is kept, check it",)
     checked = refined.evidence if refined.accepted else "nothing but the pairs speaks for it"
     note = f"placed by {count} pairs picked by hand, off by {pixels:.0f} pixels{slips}; {checked}"
-    return Location(registration, True, "hand", note)
+    return Location(registration, True, "hand", note, warnings)
 
 
 def _carried(camera, pose_from, pose_to):

@@ -15,6 +15,8 @@ from .photo_image import PhotoImage
 from .scan_image import toned
 
 _LEAST_SIDE = 16
+_LEAST_CHROMA = 6
+_TWICE = "another photo has the same name; give each photo once, and another name to one of two"
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,8 +158,9 @@ def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=N
             for seeds, locations, warnings in site.verified(scans, opened, hand, settings, step)
         ]
     progress(1.0, "Matched")
+    gray = tuple(f"{photo.name}: is black and white, it gives no colors" for photo in opened if _is_gray(photo.rgb))
     return [
-        Matching(joined(picked, stays, matching.seeds), matching.photos, matching.warnings)
+        Matching(joined(picked, stays, matching.seeds), matching.photos, gray + matching.warnings)
         for matching, picked, stays in zip(matchings, hand, kept, strict=True)
     ]
 
@@ -186,6 +189,8 @@ def opened_photos(photos):
             raise ImageError(
                 f"{name}: has {rgb.shape[1]} x {rgb.shape[0]} pixels, expected at least {_LEAST_SIDE} on each side"
             )
+        if any(name == other.name for other in opened):
+            raise ImageError(f"{photo if isinstance(photo, str | Path) else name}: {_TWICE}")
         opened.append(PhotoImage(name, rgb))
     return opened
 
@@ -219,6 +224,10 @@ def _placed(seeds, scans):
 
 def _picked(seeds):
     return replace(seeds, confidence=np.ones(len(seeds)), reason=("hand",) * len(seeds))
+
+
+def _is_gray(rgb):
+    return bool((np.ptp(rgb[::4, ::4], axis=-1) <= _LEAST_CHROMA).all())
 
 
 def _report(photo, location):

@@ -11,6 +11,8 @@ _FOCAL_DOUBT = 2.0
 # A person clicks to about a hundredth of the photo; a pair that is off by more than three of these is a slip.
 _CLICK_SHARE = 0.01
 _ACCEPTED_SHARE = 0.02
+# Four pairs often fit a camera on either side of what was picked. One that looks at the backs of it is the wrong one.
+_BACK_DOUBT = 2.0
 
 
 def camera_from_pairs(points, xy, photo):
@@ -66,9 +68,17 @@ def _fitted(points, xy, photo):
                 rotation = cv2.Rodrigues(turn)[0]
                 start = Camera(rotation, -rotation.T @ shift[:, 0], focal * longer, 0.0, photo.width, photo.height)
                 camera, cost, error = _polished(start, points, xy)
+                cost += _BACK_DOUBT * _backs(camera, points)
                 if cost < best_cost:
                     best, best_cost, best_error = camera, cost, error
     return best, best_error
+
+
+def _backs(camera, points):
+    """How far a camera looks at the backs of what the scanner saw: 0 from its side, 1 from the opposite one."""
+    way = camera.center - points
+    lengths = np.linalg.norm(way, axis=1) * np.linalg.norm(points, axis=1)
+    return float(np.maximum((way * points).sum(axis=1) / np.maximum(lengths, 1e-12), 0).mean())
 
 
 def _polished(camera, points, xy):

@@ -84,7 +84,7 @@ class PhotoImage:
         return edge_features(filled(image, seen), seen), seen
 
 
-def visible(model, image, xy, depth, tolerance=0.04):
+def visible(model, image, xy, depth, tolerance=0.04, panes=None):
     """Return (h, w) bool: which pixels of a `ScanImage` the photo really sees.
 
     By a depth buffer of the scan's own points. What is hidden by something that the scanner did not see is not found.
@@ -97,18 +97,20 @@ def visible(model, image, xy, depth, tolerance=0.04):
         As ``model.project`` gave them for the pixels.
     tolerance : float
         What lies farther than the nearest in the same place by more than this share is hidden.
+    panes : (K, 3) float64, optional
+        Points that hide what is behind them, too, metres, scanner frame.
     """
     inside = image.valid & np.isfinite(xy).all(axis=-1) & (depth > 0)
     inside &= (xy >= 0).all(axis=-1) & (np.nan_to_num(xy) <= [model.width, model.height]).all(axis=-1)
     if model.kind == "homography" or not inside.any():
         return inside
-    nearest, place = depth_buffer(model, xy, depth, inside)
+    nearest, place = depth_buffer(model, xy, depth, inside, panes)
     seen = inside.copy()
     seen[inside] = depth[inside] <= nearest[place] * (1 + tolerance)
     return seen
 
 
-def depth_buffer(model, xy, depth, inside):
+def depth_buffer(model, xy, depth, inside, more=None):
     """Return the depth of the nearest surface in each cell of a photo, very large where there is none, and the cells.
 
     Parameters
@@ -118,6 +120,8 @@ def depth_buffer(model, xy, depth, inside):
         As ``model.project`` gave them for the pixels of a scan.
     inside : (h, w) bool
         Which of them to take, N of them.
+    more : (K, 3) float64, optional
+        Points of other surfaces.
 
     Returns
     -------
@@ -132,6 +136,12 @@ def depth_buffer(model, xy, depth, inside):
     column, row = (xy[inside] / cell).astype(int).T
     nearest = np.full((rows, columns), np.inf)
     np.minimum.at(nearest, (row, column), depth[inside])
+    if more is not None and len(more):
+        xy_more, depth_more = model.project(more)
+        there = np.isfinite(xy_more).all(axis=-1) & (xy_more >= 0).all(axis=-1)
+        there &= (np.nan_to_num(xy_more) <= [model.width, model.height]).all(axis=-1)
+        column_more, row_more = (xy_more[there] / cell).astype(int).T
+        np.minimum.at(nearest, (row_more, column_more), depth_more[there])
     # Between its points, too, a surface hides what is behind; closing fills the gaps and leaves the outlines.
     window = np.ones((5, 5))
     return cv2.dilate(cv2.erode(np.minimum(nearest, 1e9), window), window), (row, column)

@@ -5,11 +5,13 @@ from functools import cached_property
 import numpy as np
 
 from ..normalization import normalize
-from .edges import scan_features
+from .edges import filled, scan_features
 
 TONES = ("ranks", "percentiles")
 RANGE_WEIGHT = 0.35
 _SMALL = 400
+# Pixels, and share of the image, of holes that may be panes of glass; how much farther a rim may be in one place.
+_SMALLEST_PANE, _LARGEST_PANE, _FLAT_RIM = 9, 0.05, 1.25
 
 
 def toned(scan, tone):
@@ -106,6 +108,29 @@ class ScanImage:
     def directions(self):
         """(h, w, 3) float64: unit vectors from the scanner; zero where not valid."""
         return self.points / np.maximum(self.range, 1e-9)[..., None]
+
+    @cached_property
+    def panes(self):
+        """(K, 3) float64, metres: the surface in holes that it surrounds.
+
+        Glass gives no return, but it is no opening: a photo shows the glass, not what lies behind it.
+        """
+        import cv2
+
+        _, label, stats, _ = cv2.connectedComponentsWithStats((~self.valid).astype(np.uint8), connectivity=4)
+        height, width = self.shape
+        left, top, across, down, size = stats.T
+        inner = (np.arange(len(stats)) > 0) & (left > 0) & (top > 0) & (left + across < width) & (top + down < height)
+        inside = np.zeros(self.shape, bool)
+        for hole in np.flatnonzero(inner & (size >= _SMALLEST_PANE) & (size <= _LARGEST_PANE * self.valid.size)):
+            window = np.s_[top[hole] - 1 : top[hole] + down[hole] + 1, left[hole] - 1 : left[hole] + across[hole] + 1]
+            own = label[window] == hole
+            rim = (cv2.dilate(own.astype(np.uint8), np.ones((3, 3))) > 0) & ~own & self.valid[window]
+            near, far = np.quantile(self.range[window][rim], (0.05, 0.95))
+            # A hole between things at different distances is no pane of one of them.
+            if far <= near * _FLAT_RIM:
+                inside[window] |= own
+        return np.stack([filled(axis, self.valid)[inside] for axis in np.moveaxis(self.points, -1, 0)], axis=-1)
 
     @cached_property
     def normals(self):

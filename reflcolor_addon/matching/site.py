@@ -1,6 +1,6 @@
 """All scans and all photos of a site: each photo registered on each scan, and seeds made from what was verified."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -52,10 +52,8 @@ def verified(scans, photos, hand, settings, step):
             place.warnings += location.warnings
     for place in places:
         step(0.87, f"{place.scan.name}: transferring colors")
-        place.shown = [
-            seen_by(photo, location.registration.model, place.image) if location.verified else None
-            for photo, location in zip(photos, place.locations, strict=True)
-        ]
+        for index, photo in enumerate(photos):
+            place.shown.append(_shown(place, photo, index))
     photo_gains = gains([place.shown for place in places])
     seen = [_seen_seeds(place, photos, photo_gains) for place in places]
     step(0.93, "Learning the materials")
@@ -70,6 +68,24 @@ def _prepared(scan, settings, step):
     views = ScanViews(scan)
     image = square_image(scan, views.tone("percentiles"))
     return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), [], [], [])
+
+
+def _shown(place, photo, index):
+    """The `View` of a photo on a scan; None, and no longer verified, where it shows nothing that could be used."""
+    location = place.locations[index]
+    if not location.verified:
+        return None
+    view = seen_by(photo, location.registration.model, place.image)
+    if view.usable.any():
+        return view
+    place.locations[index] = replace(
+        location, verified=False, reason=None, note=f"{location.note}; so placed, it shows nothing of the scan"
+    )
+    help_ = (
+        "check the pairs, and add some far from the others" if location.by_hand else "pick four to six pairs by hand"
+    )
+    place.warnings.append(f"{place.scan.name}: {photo.name}, so placed, shows nothing of the scan; {help_}")
+    return None
 
 
 def _counted(step, begin, share, scans):
@@ -179,6 +195,7 @@ def _with_unseen(place, seen, look, appearance, photos, settings, step):
         reason=("appearance",) * int(sure.sum()),
     )
     if seen is None:
+        place.warnings.append(f"{place.scan.name}: no photo shows it; all its colors are guessed from the other scans")
         return likely
     return Seeds(
         rows=np.concatenate([seen.seeds.rows, likely.rows]),
