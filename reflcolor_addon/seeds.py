@@ -15,6 +15,8 @@ from .image_files import read_image
 
 FORMAT = "reflcolor-seeds"
 VERSION = 1
+# From so many seeds on pixels without a return on it is asked whether they belong to the scan.
+_MANY_MOVED = 5
 _KEYS = ("row", "col", "rgb", "photo", "x", "y", "confidence", "reason")
 REASONS = ("pose", "homography", "appearance", "hand")
 
@@ -155,7 +157,8 @@ class Seeds:
         -------
         seeds : Seeds
         warnings : list of str
-            One line per seed that lay on a pixel without return and was moved to the nearest pixel with one.
+            One line per seed that lay on a pixel without return and was moved to the nearest pixel with one; one more
+            before them where they are many.
 
         Raises
         ------
@@ -180,6 +183,11 @@ class Seeds:
                     f"seed {index + 1}: no return at row {row}, column {col}; "
                     f"moved to row {rows[index]}, column {cols[index]}"
                 )
+        if len(warnings) >= _MANY_MOVED:
+            warnings.insert(
+                0,
+                f"{len(warnings)} of {len(self)} seeds lie where {scan.name} has no return; are they of another scan?",
+            )
         return replace(self, rows=rows, cols=cols), warnings
 
 

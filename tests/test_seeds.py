@@ -213,6 +213,16 @@ def test_a_seed_without_return_is_moved_to_the_nearest_and_that_is_said():
     assert warnings == ["seed 2: no return at row 3, column 4; moved to row 4, column 6"]
 
 
+def test_many_seeds_without_return_are_asked_after():
+    valid = np.zeros((5, 8), bool)
+    valid[4] = True
+    scan = scan_from_ranges(np.full((5, 8), 2.0), np.ones((5, 8)), valid)
+    seeds = Seeds([4, *[0] * 5], range(6), [[9, 9, 9]] * 6)
+    _, warnings = seeds.placed_on(scan)
+    assert warnings[0] == f"5 of 6 seeds lie where {scan.name} has no return; are they of another scan?"
+    assert len(warnings) == 6
+
+
 @pytest.mark.parametrize("pixel", [(-1, 0), (6, 0), (0, -1), (0, 10), (10**8, 0)])
 def test_a_seed_outside_the_grid_is_refused(pixel):
     seeds = Seeds([0, pixel[0]], [0, pixel[1]], [[1, 2, 3]] * 2)
