@@ -17,15 +17,15 @@ _LIGHTS = (("Headlight", None, 0.55), ("Sky", (0.0, 0.0, 1.0), 0.35), ("Side", (
 _ADDED = "reflcolor_for_render"
 
 
-def add_camera_and_lights(context, *objects):
-    """Add a camera that frames the scans' objects, and plain lights, to the scene; all is ready to render.
+def add_camera_and_lights(context, obj):
+    """Add a camera that frames a scan's object, and plain lights, to the scene; all is ready to render.
 
-    What was added before, for these or other objects, makes room for it.
+    What was added before, for this or another object, makes room for it.
     """
     scene = context.scene
     for added in [other for other in scene.objects if _ADDED in other]:
         bpy.data.objects.remove(added)
-    view = view_of(objects, SIZE[0] / SIZE[1])
+    view = view_of(obj, SIZE[0] / SIZE[1])
 
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera[_ADDED] = True

@@ -8,12 +8,9 @@ from ..reflcolor_addon.framing import frame, frame_in_region, in_world
 from .scan_object import coordinates_of
 
 
-def view_of(objects, aspect):
-    """Return the framing View of the objects of scans for a picture of an aspect (width over height).
-
-    Several are looked at from where their scanners stood on an average.
-    """
-    return frame(*_points_and_scanner(objects), aspect=aspect)
+def view_of(obj, aspect):
+    """Return the framing View of the object of a scan for a picture of an aspect (width over height)."""
+    return frame(*_points_and_scanner(obj), aspect=aspect)
 
 
 def show_first(context, count):
@@ -39,7 +36,7 @@ def look_from_scanner(context, obj, area):
     sidebar = next(region for region in area.regions if region.type == "UI")
     covered = sidebar.width if space.show_region_ui and context.preferences.system.use_region_overlap else 0
     view = frame_in_region(
-        *_points_and_scanner([obj]), size=(region.width, region.height), covered=covered, focal_mm=space.lens
+        *_points_and_scanner(obj), size=(region.width, region.height), covered=covered, focal_mm=space.lens
     )
     eye = space.region_3d
     eye.view_perspective = "PERSP"
@@ -48,8 +45,6 @@ def look_from_scanner(context, obj, area):
     eye.view_location = view.target
 
 
-def _points_and_scanner(objects):
-    """(N, 3) float64, the vertices of the objects in the world, and (3,), the middle of their scanners' places."""
-    scanners = [np.array(obj.matrix_world.translation) for obj in objects]
-    points = [in_world(coordinates_of(obj.data), obj.matrix_world) for obj in objects]
-    return np.concatenate(points), np.mean(scanners, axis=0)
+def _points_and_scanner(obj):
+    """(N, 3) float64, the vertices of an object in the world, and (3,), its scanner's place."""
+    return in_world(coordinates_of(obj.data), obj.matrix_world), np.array(obj.matrix_world.translation)

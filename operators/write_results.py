@@ -45,7 +45,8 @@ def write_results(results, paths, picture, progress):
     context.view_layer.objects.active = objects[0]
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
     if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
-        add_camera_and_lights(context, *objects)
+        # All of a site's scans together would be looked at from far above what they stand around.
+        add_camera_and_lights(context, objects[0])
     if picture is not None:
         steps.append((picture, lambda path: render(context, path)))
     for done, (path, write) in enumerate(steps):

@@ -66,7 +66,7 @@ def frame(points, scanner, *, aspect):
     points : (N, 3) float64
         Points with a return, world metres, Z up.
     scanner : (3,) float64
-        The scanner's place; of several scans, the middle of their scanners'.
+        The scanner's place.
     aspect : float
         Width of the picture over its height.
 
