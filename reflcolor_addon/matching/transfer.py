@@ -8,7 +8,8 @@ from .photo_image import depth_buffer, spacing, visible
 from .unknown_space import hidden_by_unknown
 
 _JUMP = 0.04
-_MARGIN = 2
+# Pixels of the scan to jump edges; and cells of the depth buffer to outlines, where a camera slightly off sees more.
+_MARGIN, _OUTLINE = 2, 3
 _GRAZING = 0.2
 _BORDER_SHARE = 0.005
 _BEHIND = 0.1
@@ -101,7 +102,7 @@ def _at_outline(model, xy, depth, seen):
     result = np.zeros(seen.shape, bool)
     if seen.any():
         nearest, place = depth_buffer(model, xy, depth, seen)
-        size = 2 * _MARGIN + 1
+        size = 2 * _OUTLINE + 1
         # Beyond the photo's border nothing is known to be farther.
         farthest = cv2.dilate(nearest, np.ones((size, size)), borderType=cv2.BORDER_REPLICATE)
         result[seen] = farthest[place] > depth[seen] * (1 + _FARTHER)
