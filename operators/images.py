@@ -78,6 +78,8 @@ def read_pixel(image, x, y):
 def read_pixels(image):
     """Return an image as (H, W, 3) uint8, as stored, row 0 at the top; None where it cannot be read.
 
+    What is invisible is black, as `read_image` has it.
+
     Blender hands out all pixels of an image or none, which takes long for a photo, so the last ones are remembered.
     """
     width, height = image.size
@@ -87,8 +89,10 @@ def read_pixels(image):
     if image.is_dirty or key not in _remembered:
         stored = np.empty(width * height * image.channels, np.float32)
         image.pixels.foreach_get(stored)
-        pixels = stored.reshape(height, width, image.channels)[::-1, :, :3]
-        pixels = np.rint(np.clip(pixels, 0, 1) * 255).astype(np.uint8)
+        stored = stored.reshape(height, width, image.channels)[::-1]
+        pixels = np.rint(np.clip(stored[..., :3], 0, 1) * 255).astype(np.uint8)
+        if image.channels == 4:
+            pixels[stored[..., 3] == 0] = 0
         if image.is_dirty:
             return pixels
         _remember(key, pixels)

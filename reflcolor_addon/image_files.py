@@ -12,6 +12,7 @@ from .native_noise import quiet_on_failure
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp", ".exr")
 """Image files that can be opened; for file dialogs."""
 
+_PNG, _PNG_WITH_ALPHA = b"\x89PNG\r\n\x1a\n", (4, 6)
 _EXPECTED = "expected PNG, JPEG, TIFF, WebP, BMP or EXR"
 
 
@@ -21,8 +22,9 @@ def read_image(path):
     Parameters
     ----------
     path : path-like
-        Of any name on any platform. Its EXIF orientation is honored; an alpha channel is dropped, gray becomes three
-        equal channels, 16 bits are scaled to 8, and linear floating-point colors (EXR, float TIFF) are sRGB encoded.
+        Of any name on any platform. Its EXIF orientation is honored; an alpha channel is dropped, but what it makes
+        invisible in a PNG is black; gray becomes three equal channels, 16 bits are scaled to 8, and linear
+        floating-point colors (EXR, float TIFF) are sRGB encoded.
 
     Returns
     -------
@@ -42,6 +44,10 @@ def read_image(path):
         return _srgb_from_linear(_color_of_exr(read_exr_channels(path), path))
     image = _decoded(path, data, cv2.IMREAD_COLOR | cv2.IMREAD_ANYDEPTH)
     cv2.cvtColor(image, cv2.COLOR_BGR2RGB, dst=image)
+    if data.startswith(_PNG) and data[25] in _PNG_WITH_ALPHA:
+        alpha = _decoded(path, data, cv2.IMREAD_UNCHANGED)[..., -1]
+        if alpha.shape == image.shape[:2]:
+            image[alpha == 0] = 0
     if image.dtype == np.uint8:
         return image
     if image.dtype == np.uint16:

@@ -114,8 +114,17 @@ def test_the_exif_orientation_is_honored(tmp_path, orientation):
 
 
 def test_alpha_is_dropped(tmp_path):
-    alpha = np.dstack([RGB, np.arange(54, dtype=np.uint8).reshape(6, 9)])
+    alpha = np.dstack([RGB, np.arange(1, 55, dtype=np.uint8).reshape(6, 9)])
     assert np.array_equal(read_image(saved(tmp_path, alpha)), RGB)
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16])
+def test_what_a_png_makes_invisible_is_black(tmp_path, kind):
+    most = np.iinfo(kind).max
+    alpha = np.full((6, 9), most, kind)
+    alpha[2:4, 3:] = 0
+    read = read_image(saved(tmp_path, np.dstack([RGB.astype(kind) * (most // 255), alpha])))
+    assert np.array_equal(read, np.where(alpha[..., None] > 0, RGB, 0))
 
 
 def test_gray_becomes_three_equal_channels(tmp_path):
