@@ -4,7 +4,8 @@ For every pair of a scan and a photo: the mean CIEDE2000 of color alone, painted
 from the seeds found, and from perfect seeds at the same places; and the gap closed, which is what of the way from the
 first to the last was gone. 1 is as good as perfect seeds, 0 as the mean color, below 0 is worse than that. A photo's
 own exposure and white balance cannot be known, so "in light" is the same after three gains that bring its colors, of
-seeds and of mean alike, nearest to the true ones: what is left is from wrong places. Seconds are of processor time.
+seeds and of mean alike, nearest to the true ones: what is left is from wrong places. Evidence is what speaks for the
+best camera, as a share of what is needed to be verified. Seconds are of processor time.
 "unrelated" tries every real scan with every photo of something else, and simulated ones: none may be verified. "cost"
 is time and memory for a scan of 760 x 1135 and a photo of 12 megapixels.
 """
@@ -37,7 +38,10 @@ def main():
     if unknown := set(arguments.groups) - set(groups):
         parser.error(f"no group is called {sorted(unknown)[0]}; there are {', '.join(groups)}")
     modes = arguments.mode or MODES
-    print(f"{'scan':12} {'photo':22} {'mode':9}   mean  result  perfect     gap in light  seconds  note", flush=True)
+    print(
+        f"{'scan':12} {'photo':22} {'mode':9}   mean  result  perfect     gap in light evidence seconds  note",
+        flush=True,
+    )
     for group in arguments.groups or groups:
         if group == "unrelated":
             unrelated(arguments.scenes)
@@ -98,8 +102,9 @@ def printed(pair, mode, matching, seconds):
         errors.append((error(painted), error(result)))
         gaps.append((errors[-1][0] - errors[-1][1]) / (errors[-1][0] - best))
     notes = "; ".join(report.note for report in matching.photos)
-    figures = f"{errors[0][0]:6.2f} {errors[0][1]:7.2f} {best:8.2f} {gaps[0]:7.3f} {gaps[1]:8.3f} {seconds:8.1f}"
-    print(f"{pair.scan.name:12} {pair.label:22} {mode:9} {figures}  {notes}", flush=True)
+    figures = f"{errors[0][0]:6.2f} {errors[0][1]:7.2f} {best:8.2f} {gaps[0]:7.3f} {gaps[1]:8.3f}"
+    spent = f"{max(report.evidence for report in matching.photos):8.2f} {seconds:7.1f}"
+    print(f"{pair.scan.name:12} {pair.label:22} {mode:9} {figures} {spent}  {notes}", flush=True)
     return gaps
 
 
@@ -118,13 +123,14 @@ def lit(rgb, factors):
 
 def unrelated(scenes):
     """Print what speaks for every scan with every photo of something else."""
-    accepted = tried = 0
+    accepted, evidence = 0, []
     for scan, other, photo in matching_pairs.unrelated(scenes):
         (report,) = match_photos(scan, [photo], Settings()).photos
-        tried += 1
+        evidence.append(report.evidence)
         accepted += report.verified
-        print(f"{scan.name:12} {other:20} {'ACCEPTED' if report.verified else 'refused':9} {report.note}", flush=True)
-    print(f"unrelated: {accepted} of {tried} pairs accepted", flush=True)
+        verdict = "ACCEPTED" if report.verified else "refused"
+        print(f"{scan.name:12} {other:20} {verdict:9} {report.evidence:8.2f}  {report.note}", flush=True)
+    print(f"unrelated: {accepted} of {len(evidence)} pairs accepted; most evidence {max(evidence):.2f}", flush=True)
 
 
 def cost():

@@ -5,6 +5,7 @@ from collections import OrderedDict
 import bpy
 import numpy as np
 
+from ..reflcolor_addon.image_files import eight_bits
 from ..reflcolor_addon.virtual_camera import linear_to_srgb8
 
 _MOST_REMEMBERED = 4
@@ -89,10 +90,7 @@ def read_pixels(image):
     if image.is_dirty or key not in _remembered:
         stored = np.empty(width * height * image.channels, np.float32)
         image.pixels.foreach_get(stored)
-        stored = stored.reshape(height, width, image.channels)[::-1]
-        pixels = np.rint(np.clip(stored[..., :3], 0, 1) * 255).astype(np.uint8)
-        if image.channels == 4:
-            pixels[stored[..., 3] == 0] = 0
+        pixels = eight_bits(stored.reshape(height, width, image.channels)[::-1])
         if image.is_dirty:
             return pixels
         _remember(key, pixels)

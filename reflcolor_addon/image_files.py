@@ -57,6 +57,14 @@ def read_image(path):
     raise ImageError(f"{path.name}: its pixels are {image.dtype}, expected 8 or 16 bits or floating point")
 
 
+def eight_bits(pixels):
+    """Return the (H, W, 3) uint8 of (H, W, 3 or 4) float colors and opacity of 0 to 1; what is invisible is black."""
+    rgb = np.rint(np.clip(pixels[..., :3], 0, 1) * 255).astype(np.uint8)
+    if pixels.shape[2] == 4:
+        rgb[pixels[..., 3] == 0] = 0
+    return rgb
+
+
 def read_measured(path):
     """Read an image whose pixels are measurements: range, reflectance, infrared.
 

@@ -161,3 +161,15 @@ def pytest_unconfigure(config):
             shutil.rmtree(resources, ignore_errors=True)
         config.get_terminal_writer().flush()
         blender_session.end(config.stash.get(EXIT_STATUS, 1))
+
+
+@pytest.fixture(params=["kernel", "scipy"])
+def engine(request, monkeypatch):
+    """The native kernel, and scipy in its place."""
+    from reflcolor_addon import kernel
+
+    if request.param == "scipy":
+        monkeypatch.setattr(kernel, "available", lambda: False)
+    else:
+        assert kernel.available(), f"{kernel.reason()}: run make kernel"
+    return request.param

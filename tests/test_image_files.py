@@ -9,7 +9,7 @@ import pytest
 
 from reflcolor_addon.errors import ImageError, OutputError
 from reflcolor_addon.exr import read_exr_channels
-from reflcolor_addon.image_files import read_image, read_measured, write_png
+from reflcolor_addon.image_files import eight_bits, read_image, read_measured, write_png
 
 RGB = np.random.default_rng(2).integers(0, 256, (6, 9, 3), np.uint8)
 
@@ -111,6 +111,12 @@ def test_the_exif_orientation_is_honored(tmp_path, orientation):
     assert image.shape == expected.shape
     corners = ([2, 2, -3, -3], [2, -3, 2, -3])
     assert np.abs(image[corners].astype(int) - expected[corners]).max() < 12
+
+
+def test_colors_and_opacity_become_eight_bits_and_what_is_invisible_black():
+    pixels = np.array([[[0.5, 1.2, -1.0, 1.0], [0.2, 0.4, 0.6, 0.0]]], np.float32)
+    assert eight_bits(pixels).tolist() == [[[128, 255, 0], [0, 0, 0]]]
+    assert eight_bits(pixels[..., :3]).tolist() == [[[128, 255, 0], [51, 102, 153]]]
 
 
 def test_alpha_is_dropped(tmp_path):

@@ -6,6 +6,7 @@ import numpy as np
 import painted_room
 import pytest
 
+from reflcolor_addon import Seeds
 from reflcolor_addon.matching import location
 from reflcolor_addon.matching.match import opened_photos
 from reflcolor_addon.matching.registration import Registration, ScanViews
@@ -99,6 +100,17 @@ def test_a_weak_camera_that_nothing_confirms_is_dropped(monkeypatch, scans, view
     assert first.verified
     assert not second.verified
     assert second.note == "shows first; too little of second to take colors from"
+
+
+def test_what_is_wrong_with_picked_pairs_is_told_though_another_scan_places_the_photo(
+    monkeypatch, scans, views, photo, proof
+):
+    wrong = replace(in_frame_of(scans[1]), rotation=painted_room.camera(yaw_deg=60).rotation)
+    registered(monkeypatch, {"first": registration(CAMERA, proof, 5.0), "second": registration(wrong, proof, 1.2)})
+    hand = Seeds([40, 80], [40, 80], [[1, 2, 3]] * 2, photos=("photo 1",) * 2, photo_xy=[[5, 5], [50, 50]])
+    second, _ = location.located(scans[::-1], views[::-1], [hand, None], photo, lambda text: None)
+    assert second.verified
+    assert second.warnings == ("photo 1: 2 pairs picked by hand do not place it, at least 4 do",)
 
 
 def test_where_poses_are_wrong_each_scan_that_is_beyond_doubt_counts(monkeypatch, scans, views, photo, proof):

@@ -62,18 +62,20 @@ def located(scans, views, hand, photo, step):
         Called with a text before each stage; may raise to end the work.
     """
     found = [_by_hand(*own, photo, step) for own in zip(scans, views, hand, strict=True)]
+    of_pairs = [location.warnings for location in found]
     for number, (scan, own_views) in enumerate(zip(scans, views, strict=True)):
         if not found[number].verified:
             anchor = _surest(scans, found, scan)
             known = None if anchor is None else _known_from(scans[anchor], found[anchor], scan, own_views, photo, step)
             if known is None or not known.verified:
                 known = _judged(scan, photo, register(own_views, photo, step=step))
-            found[number] = replace(known, warnings=(*found[number].warnings, *known.warnings))
+            found[number] = replace(known, warnings=of_pairs[number] + known.warnings)
     for number, (scan, own_views) in enumerate(zip(scans, views, strict=True)):
         anchor = _surest(scans, found, scan)
         if anchor is None or found[number]._order >= found[anchor]._order or found[number].beyond_doubt:
             continue
-        found[number] = _known_from(scans[anchor], found[anchor], scan, own_views, photo, step)
+        known = _known_from(scans[anchor], found[anchor], scan, own_views, photo, step)
+        found[number] = replace(known, warnings=of_pairs[number] + known.warnings)
     return found
 
 

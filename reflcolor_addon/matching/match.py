@@ -34,6 +34,9 @@ class PhotoMatch:
         What was verified.
     note : str
         One line for a person.
+    evidence : float
+        What speaks for the best camera there is, as a share of what is needed: below 1 it is not verified, unless pairs
+        picked by hand place it.
     """
 
     name: str
@@ -41,6 +44,7 @@ class PhotoMatch:
     model: object
     reason: str | None
     note: str
+    evidence: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,7 +236,8 @@ def _is_gray(rgb):
 
 def _report(photo, location):
     model = location.registration.model if location.verified else None
-    return PhotoMatch(photo.name, location.verified, model, location.reason, location.note)
+    share = location.registration.evidence.share
+    return PhotoMatch(photo.name, location.verified, model, location.reason, location.note, share)
 
 
 def _as_published(scan, photos, settings, step):

@@ -66,12 +66,13 @@ class Evidence:
     @property
     def accepted(self):
         """Whether the model is right."""
-        return (
-            self.rank >= 1
-            and self.mean >= _ACCEPTED_MEAN
-            and self.in_place >= self.needed_tiles
-            and self.spread >= _ACCEPTED_SPREAD
-        )
+        return self.share >= 1
+
+    @property
+    def share(self):
+        """How much there is of what is needed, of what there is least of: strength, mean, tiles in place, spread."""
+        enough = self.mean / _ACCEPTED_MEAN, self.in_place / self.needed_tiles, self.spread / _ACCEPTED_SPREAD
+        return max(min(self.rank, *enough), 0.0)
 
     @property
     def strength(self):
