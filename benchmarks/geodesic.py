@@ -18,8 +18,8 @@ import numpy as np
 from benchmarks import geodesic_cases as cases
 from benchmarks import geodesic_use
 from benchmarks.geodesic_tables import apart, head, medians, row
-from reflcolor_addon import kernel
-from reflcolor_addon.reference import reference_distances
+from reflcolor_addon.geodesic import kernel
+from tests.dijkstra_reference import reference_distances
 
 ALPHA = 6.0
 

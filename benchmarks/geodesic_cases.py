@@ -8,10 +8,10 @@ import numpy as np
 
 from benchmarks import real_scans
 from reflcolor_addon import Scan
-from reflcolor_addon.engines import NativeEngine
-from reflcolor_addon.exact import HeldFields, add_fields
-from reflcolor_addon.graph import PixelGraph
-from reflcolor_addon.normalization import normalize
+from reflcolor_addon.geodesic.engines import NativeEngine
+from reflcolor_addon.geodesic.exact import HeldFields, add_fields
+from reflcolor_addon.geodesic.graph import PixelGraph
+from reflcolor_addon.scan.normalization import normalize
 
 PAPER_SIZE = (760, 1135)
 DATA = Path(os.environ.get("REFLCOLOR_DATA") or Path(__file__).resolve().parent.parent.parent / "shared" / "data")

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from benchmarks import geodesic_cases as cases
 from benchmarks.quality import peers
-from reflcolor_addon import kernel
+from reflcolor_addon.geodesic import kernel
 
 _ALPHA = 6.0
 SOLVERS = {

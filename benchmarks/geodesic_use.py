@@ -9,9 +9,11 @@ import numpy as np
 from benchmarks import geodesic_cases as cases
 from benchmarks import real_scans
 from benchmarks.geodesic_tables import head, row
-from reflcolor_addon import Colorizer, Seeds, Settings, colorize, colorspaces, kernel
-from reflcolor_addon.colorizer import AUTO_NEAREST
+from reflcolor_addon import Colorizer, Seeds, Settings, colorize
+from reflcolor_addon.color import colorspaces
+from reflcolor_addon.color.colorizer import AUTO_NEAREST
 from reflcolor_addon.errors import Cancelled
+from reflcolor_addon.geodesic import kernel
 
 # Seconds after its start at which a call is cancelled.
 _MOMENTS = {

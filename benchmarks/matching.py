@@ -19,9 +19,9 @@ import numpy as np
 
 from benchmarks import geodesic_tables, matching_cost, matching_pairs
 from reflcolor_addon import Seeds, Settings, colorize, evaluate
-from reflcolor_addon.image_files import read_image
+from reflcolor_addon.files.images import read_image
 from reflcolor_addon.matching import match_photos, match_site
-from reflcolor_addon.virtual_camera import linear_to_srgb8, srgb8_to_linear
+from reflcolor_addon.srgb import linear_to_srgb8, srgb8_to_linear
 
 MODES = ("paper", "verified")
 SCENES = Path("build/scenes")

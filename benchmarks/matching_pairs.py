@@ -11,7 +11,7 @@ import numpy as np
 from benchmarks import real_scans
 from benchmarks.experiments import cases
 from reflcolor_addon import Scan, Seeds, read_scans
-from reflcolor_addon.image_files import read_image
+from reflcolor_addon.files.images import read_image
 
 DATA = Path(os.environ.get("REFLCOLOR_DATA") or "../shared/data")
 BILDSTEIN = ("01", "05", "10", "15", "20", "25")

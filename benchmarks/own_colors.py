@@ -45,7 +45,7 @@ def main():
     scans = {name: real_scans.load(name, ROOT.parent / "shared" / "data") for name in names}
     with tempfile.TemporaryDirectory() as resources:
         session.start(build.zip_path(build.host_platform(), (build.running_python(),)), Path(resources))
-        write_results = importlib.import_module(f"{session.EXTENSION}.operators.write_results").write_results
+        write_results = importlib.import_module(f"{session.EXTENSION}.operators.scene.write_results").write_results
         for name, scan in scans.items():
             colorized = colorize(scan, own_seeds(scan))
             truth = replace(colorized, rgb=np.where(scan.valid[..., None], scan.color, 0))

@@ -9,8 +9,8 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from reflcolor_addon.readers import read_scans
-from reflcolor_addon.readers.scan_json import write_scan_json
+from reflcolor_addon.files.readers import read_scans
+from reflcolor_addon.files.readers.scan_json import write_scan_json
 
 _FILES = {"pumpA": "pumpA/pumpAVisualReferenceImage.e57", "doria": "doria_ptx/1.ptx"}
 

@@ -4,11 +4,11 @@ import bpy
 from bpy.props import FloatVectorProperty, StringProperty
 
 from ..reflcolor_addon.errors import SeedsError
-from . import polls
-from .images import read_pixel
-from .reports import reported
-from .seed_list import SeedPlace, append_seed
-from .texts import NO_COLOR, told
+from .scene import polls
+from .scene.images import read_pixel
+from .scene.reports import reported
+from .scene.seed_list import SeedPlace, append_seed
+from .scene.texts import NO_COLOR, told
 
 
 class REFLCOLOR_OT_add_seed(SeedPlace, bpy.types.Operator):

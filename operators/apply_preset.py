@@ -4,8 +4,8 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..reflcolor_addon.settings import PRESETS, Settings
-from .properties import take_over
-from .texts import tip
+from .scene.properties import take_over
+from .scene.texts import tip
 
 _DESCRIPTIONS = {
     "Paper": "The method as published",

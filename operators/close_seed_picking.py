@@ -2,8 +2,8 @@
 
 import bpy
 
-from . import seed_picking
-from .texts import tip
+from .scene.texts import tip
+from .window import seed_picking
 
 
 class REFLCOLOR_OT_close_seed_picking(bpy.types.Operator):

@@ -2,17 +2,18 @@
 
 import bpy
 
-from ..reflcolor_addon.colorize import colorize
+from ..reflcolor_addon.color.colorizer import colorize
 from ..reflcolor_addon.progress import in_turn
-from . import live_update, polls
-from .colorized_object import show_colorization
-from .jobs import JobOperator
-from .notices import tell, tell_together
-from .properties import COLORIZE_NAMES, ColorizeSettings, core_settings
-from .provenance import record_provenance, window_report
-from .scan_object import grid_indices, scan_reader
-from .seed_list import seeds_of
-from .texts import told
+from .scene import polls
+from .scene.colorized_object import show_colorization
+from .scene.notices import tell, tell_together
+from .scene.properties import COLORIZE_NAMES, ColorizeSettings, core_settings
+from .scene.provenance import record_provenance, window_report
+from .scene.scan_object import grid_indices, scan_reader
+from .scene.seed_list import seeds_of
+from .scene.texts import told
+from .window import live_update
+from .window.jobs import JobOperator
 
 
 class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):

@@ -2,11 +2,11 @@
 
 import bpy
 
-from ..reflcolor_addon import cli
-from ..reflcolor_addon.blender_door import BlenderDoor
-from .provenance_file import read_provenance
-from .simulate_file import simulate_file
-from .write_results import write_results
+from ..reflcolor_addon.cli import main as cli
+from ..reflcolor_addon.cli.blender_door import BlenderDoor
+from .scene.provenance_file import read_provenance
+from .scene.simulate_file import simulate_file
+from .scene.write_results import write_results
 
 
 def run(argv):

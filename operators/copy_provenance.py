@@ -2,9 +2,9 @@
 
 import bpy
 
-from . import polls
-from .provenance import provenance_text
-from .texts import tip
+from .scene import polls
+from .scene.provenance import provenance_text
+from .scene.texts import tip
 
 
 class REFLCOLOR_OT_copy_provenance(bpy.types.Operator):

@@ -2,8 +2,8 @@
 
 import bpy
 
-from . import polls
-from .texts import told
+from .scene import polls
+from .scene.texts import told
 
 
 class REFLCOLOR_OT_delete_picked(bpy.types.Operator):

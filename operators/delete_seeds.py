@@ -2,10 +2,10 @@
 
 import bpy
 
-from . import polls
-from .editors import redraw_editors
-from .seed_list import remove_seeds, selected_seeds
-from .texts import told
+from .scene import polls
+from .scene.editors import redraw_editors
+from .scene.seed_list import remove_seeds, selected_seeds
+from .scene.texts import told
 
 
 class REFLCOLOR_OT_delete_seeds(bpy.types.Operator):

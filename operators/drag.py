@@ -2,11 +2,11 @@
 
 import bpy
 
-from ..reflcolor_addon.picking import clamped_point
-from .drag_seeds import DragSeeds
-from .image_sides import event_side
-from .pointer import PointerOperator
-from .stroke_seeds import StrokeSeeds
+from ..reflcolor_addon.view.picking import clamped_point
+from .scene.image_sides import event_side
+from .window.drag_seeds import DragSeeds
+from .window.pointer import PointerOperator
+from .window.stroke_seeds import StrokeSeeds
 
 
 class REFLCOLOR_OT_drag(PointerOperator, bpy.types.Operator):

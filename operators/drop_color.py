@@ -2,8 +2,8 @@
 
 import bpy
 
-from .editors import redraw_editors
-from .texts import tip
+from .scene.editors import redraw_editors
+from .scene.texts import tip
 
 
 class REFLCOLOR_OT_drop_color(bpy.types.Operator):

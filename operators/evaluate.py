@@ -4,15 +4,15 @@ import bpy
 import numpy as np
 from bpy.props import StringProperty
 
+from ..reflcolor_addon.color.evaluation import error_map, evaluate
 from ..reflcolor_addon.errors import ScanError
-from ..reflcolor_addon.evaluation import error_map, evaluate
-from . import polls
-from .images import read_image
-from .jobs import JobOperator
-from .looks import refresh_look
-from .notices import tell
-from .scan_object import COLORIZED, ERROR, SCANNED, add_values, colors_of, grid_indices
-from .texts import told
+from .scene import polls
+from .scene.images import read_image
+from .scene.looks import refresh_look
+from .scene.notices import tell
+from .scene.scan_object import COLORIZED, ERROR, SCANNED, add_values, colors_of, grid_indices
+from .scene.texts import told
+from .window.jobs import JobOperator
 
 # Where no true color is known.
 UNKNOWN = -1.0

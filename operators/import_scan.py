@@ -7,21 +7,21 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
+from ..reflcolor_addon.batch.inputs import scan_files
 from ..reflcolor_addon.errors import ScanError
-from ..reflcolor_addon.grid_mesh import MAX_INCIDENCE_DEG
-from ..reflcolor_addon.image_files import IMAGE_SUFFIXES
-from ..reflcolor_addon.inputs import scan_files
-from ..reflcolor_addon.object_arrays import object_arrays
-from ..reflcolor_addon.orientation import flipped
-from ..reflcolor_addon.readers import SCAN_SUFFIXES, read_scans
-from ..reflcolor_addon.readers.pair_description import describe_pair
-from ..reflcolor_addon.report import input_entry, scan_entry
-from .jobs import JobOperator
-from .notices import tell
-from .provenance import record_import
-from .scan_object import add_scan_object
-from .texts import told
-from .viewpoint import show_first
+from ..reflcolor_addon.files.images import IMAGE_SUFFIXES
+from ..reflcolor_addon.files.readers import SCAN_SUFFIXES, read_scans
+from ..reflcolor_addon.files.readers.pair_description import describe_pair
+from ..reflcolor_addon.report.report import input_entry, scan_entry
+from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
+from ..reflcolor_addon.scan.object_arrays import object_arrays
+from ..reflcolor_addon.scan.orientation import flipped
+from .scene.notices import tell
+from .scene.provenance import record_import
+from .scene.scan_object import add_scan_object
+from .scene.texts import told
+from .scene.viewpoint import show_first
+from .window.jobs import JobOperator
 
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
 

@@ -2,10 +2,10 @@
 
 import bpy
 
-from . import polls
-from .editors import redraw_editors, select_only
 from .pick_color import give_color
-from .seed_list import selected_seeds
+from .scene import polls
+from .scene.editors import redraw_editors, select_only
+from .scene.seed_list import selected_seeds
 
 NEUTRAL = (0.5, 0.5, 0.5)
 

@@ -2,8 +2,8 @@
 
 import bpy
 
-from . import live_update
-from .texts import tip
+from .scene.texts import tip
+from .window import live_update
 
 
 class REFLCOLOR_OT_leave_preview(bpy.types.Operator):

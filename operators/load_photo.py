@@ -6,13 +6,13 @@ import bpy
 from bpy.props import CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..reflcolor_addon.image_files import IMAGE_SUFFIXES, read_image
-from ..reflcolor_addon.report import input_entry
-from .image_sides import show_image
-from .images import remember_pixels, write_image
-from .provenance import record_photo
-from .reports import reported
-from .texts import told
+from ..reflcolor_addon.files.images import IMAGE_SUFFIXES, read_image
+from ..reflcolor_addon.report.report import input_entry
+from .scene.image_sides import show_image
+from .scene.images import remember_pixels, write_image
+from .scene.provenance import record_photo
+from .scene.reports import reported
+from .scene.texts import told
 
 
 class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):

@@ -6,15 +6,15 @@ import bpy
 from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..reflcolor_addon.seeds import Seeds, find_photo
-from . import polls
+from ..reflcolor_addon.seeds.seeds import Seeds, find_photo
 from .load_photo import add_photo
-from .notices import tell
-from .provenance import record_seeds_file
-from .reports import reported
-from .scan_object import scan_of
-from .seed_list import append_seeds
-from .texts import told
+from .scene import polls
+from .scene.notices import tell
+from .scene.provenance import record_seeds_file
+from .scene.reports import reported
+from .scene.scan_object import scan_of
+from .scene.seed_list import append_seeds
+from .scene.texts import told
 
 
 class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):

@@ -3,9 +3,9 @@
 import bpy
 from bpy.props import BoolProperty
 
-from . import polls
-from .editors import redraw_editors
-from .seed_list import selected_seeds
+from .scene import polls
+from .scene.editors import redraw_editors
+from .scene.seed_list import selected_seeds
 
 
 class REFLCOLOR_OT_lock_seeds(bpy.types.Operator):

@@ -4,15 +4,15 @@ import bpy
 
 from ..reflcolor_addon.errors import SeedsError
 from ..reflcolor_addon.matching import draw_matches, match_site
-from . import polls
-from .images import read_pixels, write_image
-from .jobs import JobOperator
-from .notices import tell, tell_together
-from .properties import MATCH_NAMES, MatchSettings, core_settings
-from .provenance import record_matching
-from .scan_object import own_image, scan_reader
-from .seed_list import append_seeds, remove_seeds, seeds_of
-from .texts import told
+from .scene import polls
+from .scene.images import read_pixels, write_image
+from .scene.notices import tell, tell_together
+from .scene.properties import MATCH_NAMES, MatchSettings, core_settings
+from .scene.provenance import record_matching
+from .scene.scan_object import own_image, scan_reader
+from .scene.seed_list import append_seeds, remove_seeds, seeds_of
+from .scene.texts import told
+from .window.jobs import JobOperator
 
 
 class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):

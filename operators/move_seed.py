@@ -5,9 +5,9 @@ from contextlib import suppress
 import bpy
 
 from ..reflcolor_addon.errors import SeedsError
-from . import polls
-from .reports import reported
-from .seed_list import SeedChoice, SeedPlace
+from .scene import polls
+from .scene.reports import reported
+from .scene.seed_list import SeedChoice, SeedPlace
 
 
 class REFLCOLOR_OT_move_seed(SeedChoice, SeedPlace, bpy.types.Operator):

@@ -2,8 +2,8 @@
 
 import bpy
 
-from . import polls
-from .image_sides import show_image
+from .scene import polls
+from .scene.image_sides import show_image
 
 
 class REFLCOLOR_OT_open_reflectance(bpy.types.Operator):

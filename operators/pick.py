@@ -3,9 +3,9 @@
 import bpy
 from bpy.props import EnumProperty
 
-from ..reflcolor_addon.picking import clamped_point
-from .image_sides import event_side
-from .texts import told
+from ..reflcolor_addon.view.picking import clamped_point
+from .scene.image_sides import event_side
+from .scene.texts import told
 
 
 class REFLCOLOR_OT_pick(bpy.types.Operator):

@@ -4,16 +4,16 @@ import bpy
 from bpy.props import BoolProperty, FloatVectorProperty, StringProperty
 
 from ..reflcolor_addon.errors import SeedsError
-from . import polls
-from .editors import select_only
-from .images import read_pixel
-from .live_update import redraw_seeds
 from .load_photo import list_photo
-from .quiet import point_to, write_quietly
-from .reports import reported
-from .seed_arrays import FOUND_BY
-from .seed_list import selected_seeds
-from .texts import NO_COLOR, told
+from .scene import polls
+from .scene.editors import select_only
+from .scene.images import read_pixel
+from .scene.quiet import point_to, write_quietly
+from .scene.reports import reported
+from .scene.seed_arrays import FOUND_BY
+from .scene.seed_list import selected_seeds
+from .scene.texts import NO_COLOR, told
+from .window.live_update import redraw_seeds
 
 
 class REFLCOLOR_OT_pick_color(bpy.types.Operator):

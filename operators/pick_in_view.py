@@ -5,12 +5,12 @@ import numpy as np
 from bpy_extras import view3d_utils
 from mathutils import Vector
 
-from ..reflcolor_addon.picking import corner_nearest, nearest_within
-from . import polls
-from .image_sides import HIT_RADIUS
-from .scan_object import seed_vertices
-from .seed_arrays import seed_arrays
-from .texts import told
+from ..reflcolor_addon.view.picking import corner_nearest, nearest_within
+from .scene import polls
+from .scene.image_sides import HIT_RADIUS
+from .scene.scan_object import seed_vertices
+from .scene.seed_arrays import seed_arrays
+from .scene.texts import told
 
 
 class REFLCOLOR_OT_pick_in_view(bpy.types.Operator):

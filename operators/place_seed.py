@@ -3,13 +3,11 @@
 import bpy
 from bpy.props import BoolProperty
 
-from . import polls
-from .editors import select_only
-from .live_update import redraw_seeds
-from .quiet import point_to, write_quietly
-from .reports import reported
-from .seed_list import SeedPlace, append_seed, snapped_place
-from .texts import told
+from .scene import polls
+from .scene.reports import reported
+from .scene.seed_list import SeedPlace, place_seed, snapped_place
+from .scene.texts import told
+from .window.live_update import redraw_seeds
 
 
 class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
@@ -37,19 +35,6 @@ class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
         if (row, col) != (self.row, self.col):
             self.report({"INFO"}, told("No return there; placed at row {row}, column {col}", row=row, col=col))
         return {"FINISHED"}
-
-
-def place_seed(context, obj, row, col):
-    """Add a seed in the picked color; without one it waits for its color, selected."""
-    settings = context.scene.reflcolor
-    if not settings.picked:
-        color = settings.bl_rna.properties["picked_color"].default_array[:]
-        write_quietly(append_seed(obj, row, col, color), has_color=False)
-        return
-    append_seed(obj, row, col, settings.picked_color, settings.picked_photo, settings.picked_xy)
-    select_only(obj.reflcolor.seeds, [])
-    # The point of the photo is that of one place only; the color may be that of many.
-    point_to(settings, picked_photo=None)
 
 
 classes = (REFLCOLOR_OT_place_seed,)

@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import polls
+from .scene import polls
 
 
 class REFLCOLOR_OT_remove_photo(bpy.types.Operator):

@@ -2,9 +2,9 @@
 
 import bpy
 
-from . import polls
-from .reports import reported
-from .seed_list import SeedChoice, remove_seeds
+from .scene import polls
+from .scene.reports import reported
+from .scene.seed_list import SeedChoice, remove_seeds
 
 
 class REFLCOLOR_OT_remove_seed(SeedChoice, bpy.types.Operator):

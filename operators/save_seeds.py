@@ -4,10 +4,10 @@ import bpy
 from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from . import polls
-from .reports import reported
-from .seed_list import seeds_of
-from .texts import told
+from .scene import polls
+from .scene.reports import reported
+from .scene.seed_list import seeds_of
+from .scene.texts import told
 
 
 class REFLCOLOR_OT_save_seeds(bpy.types.Operator, ExportHelper):

@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from . import polls
-from .editors import redraw_editors, select_only
+from .scene import polls
+from .scene.editors import redraw_editors, select_only
 
 
 class REFLCOLOR_OT_select_all_seeds(bpy.types.Operator):

@@ -4,12 +4,12 @@ import bpy
 import numpy as np
 from bpy.props import EnumProperty
 
-from ..reflcolor_addon.picking import box_outline, inside_outline
-from .drawing import draw_outline
-from .editors import redraw_editors, select_only
-from .image_sides import event_side
-from .pointer import PointerOperator, object_named
-from .seed_list import selected_seeds
+from ..reflcolor_addon.view.picking import box_outline, inside_outline
+from .overlays.drawing import draw_outline
+from .scene.editors import redraw_editors, select_only
+from .scene.image_sides import event_side
+from .scene.seed_list import selected_seeds
+from .window.pointer import PointerOperator, object_named
 
 
 class REFLCOLOR_OT_select_region(PointerOperator, bpy.types.Operator):

@@ -3,11 +3,11 @@
 import bpy
 from bpy.props import BoolProperty
 
-from . import polls
-from .editors import redraw_editors
-from .quiet import write_quietly
-from .reports import reported
-from .seed_list import SeedChoice, choose_seed
+from .scene import polls
+from .scene.editors import redraw_editors
+from .scene.quiet import write_quietly
+from .scene.reports import reported
+from .scene.seed_list import SeedChoice, choose_seed
 
 
 class REFLCOLOR_OT_select_seed(SeedChoice, bpy.types.Operator):

@@ -2,8 +2,8 @@
 
 import bpy
 
-from . import polls
-from .render import add_camera_and_lights
+from .scene import polls
+from .scene.render import add_camera_and_lights
 
 
 class REFLCOLOR_OT_set_up_render(bpy.types.Operator):

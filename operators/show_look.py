@@ -3,10 +3,10 @@
 import bpy
 from bpy.props import EnumProperty
 
-from . import polls
-from .looks import LOOKS, show_look, why_not
-from .reports import reported
-from .texts import tip
+from .scene import polls
+from .scene.looks import LOOKS, show_look, why_not
+from .scene.reports import reported
+from .scene.texts import tip
 
 
 class REFLCOLOR_OT_show_look(bpy.types.Operator):

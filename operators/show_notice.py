@@ -3,11 +3,11 @@
 import bpy
 from bpy.props import IntProperty
 
-from . import polls
-from .editors import redraw_editors
-from .image_sides import side_in
-from .notices import seed_of
-from .texts import tip
+from .scene import polls
+from .scene.editors import redraw_editors
+from .scene.image_sides import side_in
+from .scene.notices import seed_of
+from .scene.texts import tip
 
 
 class NoticeChoice:

@@ -7,10 +7,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..reflcolor_addon.virtual_scanner import ScannerModel
-from .reports import reported
-from .simulation import Simulation, leveled_pose, photo_cameras, simulation_steps
-from .texts import core_line, label, told
+from ..reflcolor_addon.simulation.virtual_scanner import ScannerModel
+from .scene.reports import reported
+from .scene.simulation import Simulation, leveled_pose, photo_cameras, simulation_steps
+from .scene.texts import core_line, label, told
 
 _DEFAULT = ScannerModel()
 

@@ -2,11 +2,11 @@
 
 import bpy
 
+from ..operators.overlays import legend
 from . import (
     colorize,
     compare,
     images,
-    legend,
     looking,
     menus,
     messages,

@@ -1,7 +1,8 @@
 """Step 4: colorize, and step 5: compare with the truth."""
 
-from ..operators import jobs, live_update, polls
-from ..operators.texts import label
+from ..operators.scene import polls
+from ..operators.scene.texts import label
+from ..operators.window import jobs, live_update
 from ..reflcolor_addon.settings import PRESETS
 from .presets import REFLCOLOR_PT_colorize_presets
 from .step import Step, draw_selected, in_both_editors, in_view

@@ -1,6 +1,6 @@
 """Before and after, in the Image Editor's sidebar."""
 
-from ..operators.wipe import overlay_image
+from ..operators.overlays.wipe import overlay_image
 from .step import Step, in_images
 
 

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..operators import seed_picking
+from ..operators.window import seed_picking
 from .step import Step, in_both_editors
 
 

@@ -1,7 +1,7 @@
 """What the viewport shows of a scan."""
 
-from ..operators.looks import LOOKS, shown_look, why_not
-from ..operators.texts import label
+from ..operators.scene.looks import LOOKS, shown_look, why_not
+from ..operators.scene.texts import label
 from .step import Step, in_view
 
 

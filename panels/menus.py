@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..operators import polls
+from ..operators.scene import polls
 
 # By theme, with a line between; what needs a place or a stroke of the mouse is in the tools instead.
 ACTS = (

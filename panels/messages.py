@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..operators import polls
+from ..operators.scene import polls
 from .step import Step, in_both_editors
 
 

@@ -5,11 +5,11 @@ from pathlib import PurePath
 
 from bpy.app.translations import pgettext_n as n_
 
-from ..operators.provenance import provenance_text
-from ..operators.scan_object import COLORIZED
-from ..operators.texts import core_line, label
+from ..operators.scene.provenance import provenance_text
+from ..operators.scene.scan_object import COLORIZED
+from ..operators.scene.texts import core_line, label
 from ..reflcolor_addon.errors import ReflcolorError
-from ..reflcolor_addon.provenance import outline, parse_provenance
+from ..reflcolor_addon.report.provenance import outline, parse_provenance
 from .step import Step, in_view
 
 _ICONS = {"scan": "MESH_GRID", "seeds": "FILE_TEXT", "photo": "IMAGE_DATA"}

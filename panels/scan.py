@@ -1,6 +1,6 @@
 """Step 1: the scan."""
 
-from ..operators.texts import label
+from ..operators.scene.texts import label
 from .step import Step, in_view
 
 

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..operators.texts import label
+from ..operators.scene.texts import label
 from .presets import REFLCOLOR_PT_match_presets
 from .step import Step, draw_selected, in_both_editors
 

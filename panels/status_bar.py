@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..operators.tools import SeedTool
+from ..operators.window.tools import SeedTool
 
 
 def draw_hints(self, context):

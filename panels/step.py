@@ -2,8 +2,8 @@
 
 import bpy
 
-from ..operators import polls
-from ..operators.texts import label
+from ..operators.scene import polls
+from ..operators.scene.texts import label
 
 
 class Step:

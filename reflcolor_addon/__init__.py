@@ -4,16 +4,15 @@ The method is that of Oishi, Kurazume, Iwashita and Hasegawa, "Colorization of 3
 Reflectivity" (ICRA 2013). Everything here works on plain NumPy arrays and needs no Blender.
 """
 
-from .colorization import Colorization
-from .colorize import colorize
-from .colorizer import Colorizer
+from .color.colorization import Colorization
+from .color.colorizer import Colorizer, colorize
+from .color.evaluation import evaluate
 from .errors import Cancelled, ImageError, OutputError, ReflcolorError, ScanError, SeedsError, SettingsError
-from .evaluation import evaluate
-from .geodesic import geodesic_distances
+from .files.readers import read_scans
+from .geodesic.distances import geodesic_distances
 from .matching import draw_matches, match_photos, match_seeds
-from .readers import read_scans
-from .scan import Scan
-from .seeds import Seeds
+from .scan.scan import Scan
+from .seeds.seeds import Seeds
 from .settings import Settings
 
 __all__ = [

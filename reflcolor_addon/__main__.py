@@ -4,7 +4,7 @@ import sys
 
 if __name__ == "__main__":
     try:
-        from .cli import main
+        from .cli.main import main
 
         status = main(sys.argv[1:])
     except KeyboardInterrupt:  # before the command line listens for it

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from small_scans import random_scan
 
-from reflcolor_addon.blender_door import BlenderDoor
-from reflcolor_addon.cli import main
-from reflcolor_addon.writers import write_ptx
+from reflcolor_addon.cli.blender_door import BlenderDoor
+from reflcolor_addon.cli.main import main
+from reflcolor_addon.files.writers import write_ptx
 
 ROOT = Path(__file__).resolve().parent.parent
 SHAPE = (6, 10)

@@ -166,7 +166,7 @@ def pytest_unconfigure(config):
 @pytest.fixture(params=["kernel", "scipy"])
 def engine(request, monkeypatch):
     """The native kernel, and scipy in its place."""
-    from reflcolor_addon import kernel
+    from reflcolor_addon.geodesic import kernel
 
     if request.param == "scipy":
         monkeypatch.setattr(kernel, "available", lambda: False)

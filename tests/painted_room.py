@@ -3,7 +3,7 @@
 import numpy as np
 
 from reflcolor_addon.matching.models import Camera, camera_axes
-from reflcolor_addon.scan import Scan
+from reflcolor_addon.scan.scan import Scan
 
 # Wall, left wall, floor, front and side of a box: a point on each, and two directions along it with their lengths.
 _PANELS = (

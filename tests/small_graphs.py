@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from hypothesis import strategies as st
 
-from reflcolor_addon import kernel
+from reflcolor_addon.geodesic import kernel
 
 
 class SmallGraph(NamedTuple):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from reflcolor_addon.scan import Scan
+from reflcolor_addon.scan.scan import Scan
 
 
 def scan_from_ranges(ranges, reflectance, valid=None, *, name="small", azimuth_deg=60.0, elevation_deg=40.0):

@@ -9,8 +9,8 @@ from small_scans import random_scan
 from test_blender_import import values, write_small_ptx
 
 from reflcolor_addon import Seeds, colorize, evaluate, read_scans
-from reflcolor_addon.evaluation import error_map
-from reflcolor_addon.image_files import write_png
+from reflcolor_addon.color.evaluation import error_map
+from reflcolor_addon.files.images import write_png
 
 SEEDS = Seeds([0, 5], [0, 9], np.array([[200, 80, 40], [20, 90, 220]], np.uint8))
 

@@ -8,8 +8,8 @@ import pytest
 from small_scans import random_scan, scan_from_ranges
 
 from reflcolor_addon import read_scans
-from reflcolor_addon.grid_mesh import grid_mesh
-from reflcolor_addon.writers.ptx import write_ptx
+from reflcolor_addon.files.writers.ptx import write_ptx
+from reflcolor_addon.scan.grid_mesh import grid_mesh
 
 
 def write_small_ptx(path, scan, pose=None):

@@ -10,7 +10,7 @@ from small_scans import random_scan
 from test_blender_import import srgb, values, write_small_ptx
 
 from reflcolor_addon import Seeds, colorize, read_scans
-from reflcolor_addon.colormaps import UNKNOWN, limits_of, painted, region_colors
+from reflcolor_addon.view.colormaps import UNKNOWN, limits_of, painted, region_colors
 
 SEEDS = Seeds([0, 5, 3], [0, 9, 3], np.array([[200, 80, 40], [20, 90, 220], [90, 200, 60]], np.uint8))
 MAPS = {
@@ -48,7 +48,7 @@ def colorized(imported):
 
 @pytest.fixture
 def legend(installed_blender):
-    return importlib.import_module(f"{EXTENSION}.panels.legend")
+    return importlib.import_module(f"{EXTENSION}.operators.overlays.legend")
 
 
 def shown(bpy):

@@ -12,7 +12,7 @@ from test_blender_import import write_small_ptx
 
 @pytest.fixture
 def notices(installed_blender):
-    return importlib.import_module(f"{EXTENSION}.operators.notices")
+    return importlib.import_module(f"{EXTENSION}.operators.scene.notices")
 
 
 @pytest.fixture

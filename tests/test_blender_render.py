@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from small_scans import random_scan, scan_from_ranges
 
-from reflcolor_addon.writers.ptx import write_ptx
+from reflcolor_addon.files.writers.ptx import write_ptx
 
 
 def import_scan(blender, folder, scan):

@@ -88,7 +88,7 @@ def everything(bpy):
 @pytest.fixture
 def cancelled(installed_blender, monkeypatch):
     """A function that has the next operators cancelled when they ask for the given time whether they are."""
-    jobs = importlib.import_module(f"{EXTENSION}.operators.jobs")
+    jobs = importlib.import_module(f"{EXTENSION}.operators.window.jobs")
 
     def after(times):
         def run_blocking(operator, context):
@@ -215,7 +215,7 @@ def test_the_active_object_must_be_a_scan(seeded):
 
 
 def test_a_preview_that_is_finished_is_taken_for_its_scan_only(seeded, files, monkeypatch):
-    live_update = importlib.import_module(f"{EXTENSION}.operators.live_update")
+    live_update = importlib.import_module(f"{EXTENSION}.operators.window.live_update")
     previewed = colorize(read_scans(files / "wall.ptx")[0], Seeds([1], [3], [[9, 200, 9]]))
     monkeypatch.setattr(live_update, "finished", lambda obj, settings: previewed if obj.name == "wall" else None)
     seeded.ops.reflcolor.colorize()
@@ -233,7 +233,7 @@ def test_cancelling_the_colorization_leaves_all_scans_as_they_were(seeded, cance
 
 
 def test_a_mesh_that_cannot_take_its_colors_leaves_all_scans_as_they_were(seeded, monkeypatch):
-    jobs = importlib.import_module(f"{EXTENSION}.operators.jobs")
+    jobs = importlib.import_module(f"{EXTENSION}.operators.window.jobs")
 
     def finished_later(operator, context):
         results = operator.prepare(context)(None, None)

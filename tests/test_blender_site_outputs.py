@@ -12,7 +12,7 @@ import pytest
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds, colorize, read_scans
-from reflcolor_addon.writers import write_ptx
+from reflcolor_addon.files.writers import write_ptx
 
 READ_BLEND = """
 import bpy, json, os, sys

@@ -10,7 +10,7 @@ from test_blender_import import write_small_ptx
 
 @pytest.fixture
 def wipe(installed_blender):
-    return importlib.import_module(f"{EXTENSION}.operators.wipe")
+    return importlib.import_module(f"{EXTENSION}.operators.overlays.wipe")
 
 
 @pytest.fixture

@@ -9,9 +9,9 @@ from command_line import COLORIZE, SHAPE, assert_refused, blender_door, run_proc
 from small_scans import random_scan
 
 from reflcolor_addon import OutputError, Seeds, Settings, colorize, read_scans
-from reflcolor_addon.image_files import read_image, write_png
+from reflcolor_addon.files.images import read_image, write_png
+from reflcolor_addon.files.writers import write_image_pair, write_ptx
 from reflcolor_addon.version import __version__
-from reflcolor_addon.writers import write_image_pair, write_ptx
 
 
 def test_colorize_writes_the_colorized_reflectance_image(run_cli, cli_folder):

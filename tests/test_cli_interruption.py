@@ -12,8 +12,8 @@ from command_line import COLORIZE, blender_door, process_line
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, Seeds, colorize
-from reflcolor_addon.interruption import Interruption
-from reflcolor_addon.writers import write_ptx
+from reflcolor_addon.cli.interruption import Interruption
+from reflcolor_addon.files.writers import write_ptx
 
 
 @pytest.fixture
@@ -30,7 +30,7 @@ def interrupting(monkeypatch):
 
             return colorize(scan, seeds, settings, progress=told, cancelled=cancelled)
 
-        monkeypatch.setattr("reflcolor_addon.commands.results.colorize", interrupted)
+        monkeypatch.setattr("reflcolor_addon.batch.results.colorize", interrupted)
 
     return arrange
 

@@ -10,8 +10,8 @@ from command_line import COLORIZE, assert_refused, run_process, save_seeds
 from small_scans import random_scan
 
 from reflcolor_addon import read_scans
-from reflcolor_addon.image_files import write_png
-from reflcolor_addon.writers import write_e57
+from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.writers import write_e57
 
 SEEDS = ("seeds", "garage.ptx", "--photo", "view.png")
 
@@ -210,7 +210,7 @@ def test_running_out_of_memory_is_said_in_one_line(run_cli, cli_folder, monkeypa
     def exhausted(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr("reflcolor_addon.commands.results.colorize", exhausted)
+    monkeypatch.setattr("reflcolor_addon.batch.results.colorize", exhausted)
     assert_refused(run_cli(*COLORIZE, "-o", "out.png"), 1, "garage.ptx: not enough memory")
     assert not (cli_folder / "out.png").exists()
 
@@ -245,6 +245,6 @@ def test_a_defect_is_not_hidden(run_cli, monkeypatch):
     def broken(*_, **__):
         raise ZeroDivisionError
 
-    monkeypatch.setattr("reflcolor_addon.commands.results.colorize", broken)
+    monkeypatch.setattr("reflcolor_addon.batch.results.colorize", broken)
     with pytest.raises(ZeroDivisionError):
         run_cli(*COLORIZE, "-o", "out.png")

@@ -12,10 +12,10 @@ from command_line import COLORIZE, SHAPE, assert_refused, blender_door
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, Seeds, Settings, colorize, read_scans
-from reflcolor_addon.commands.site import distinct, safe_label
-from reflcolor_addon.image_files import read_image, write_png
+from reflcolor_addon.batch.site import distinct, safe_label
+from reflcolor_addon.files.images import read_image, write_png
+from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.matching import match_site
-from reflcolor_addon.writers import write_ptx
 
 SITE = ("colorize", "south.ptx", "east.ptx", "--seeds", "{scan}.json")
 PAPER = ("--matching", "paper", "--slic-segments", "40")
@@ -323,7 +323,7 @@ def test_images_alone_are_written_when_all_scans_are_colorized(run_cli, site, mo
             raise Cancelled
         return colorize(scan, *arguments, **options)
 
-    monkeypatch.setattr("reflcolor_addon.commands.results.colorize", failing)
+    monkeypatch.setattr("reflcolor_addon.batch.results.colorize", failing)
     before = files(site)
     assert run_cli(*SITE, "-o", "{scan}.png") == (130, "", "error: interrupted\n")
     assert files(site) == before

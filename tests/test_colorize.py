@@ -4,27 +4,20 @@ import itertools
 
 import numpy as np
 import pytest
+from dijkstra_reference import reference_blend, reference_distances
 from hypothesis import example, given
 from hypothesis import strategies as st
 from small_scans import random_scan, scan_from_ranges
 
-from reflcolor_addon import (
-    Cancelled,
-    ReflcolorError,
-    Seeds,
-    SeedsError,
-    Settings,
-    colorize,
-    colorspaces,
-    kernel,
-    memory,
-)
-from reflcolor_addon.blending import Blend
-from reflcolor_addon.engines import engine_for
-from reflcolor_addon.geodesic import geodesic_distances
-from reflcolor_addon.graph import PixelGraph
-from reflcolor_addon.normalization import normalize
-from reflcolor_addon.reference import reference_blend, reference_distances
+from reflcolor_addon import Cancelled, ReflcolorError, Seeds, SeedsError, Settings, colorize
+from reflcolor_addon.color import colorspaces
+from reflcolor_addon.files import memory
+from reflcolor_addon.geodesic import kernel
+from reflcolor_addon.geodesic.blending import Blend
+from reflcolor_addon.geodesic.distances import geodesic_distances
+from reflcolor_addon.geodesic.engines import engine_for
+from reflcolor_addon.geodesic.graph import PixelGraph
+from reflcolor_addon.scan.normalization import normalize
 from reflcolor_addon.settings import COLOR_SPACES
 
 # Paths of up to 54 steps in float32.
@@ -311,7 +304,7 @@ def test_auto_takes_all_seeds_where_that_is_quick_else_the_nearest_and_says_whic
     rng = np.random.default_rng(2)
     seeds = Seeds(rng.integers(0, 20, 60), rng.integers(0, 30, 60), rng.integers(0, 256, (60, 3)))
     assert colorize(scan, seeds, Settings(nearest="auto")).method["nearest"] is None
-    monkeypatch.setattr("reflcolor_addon.colorizer.AUTO_EXACT_PIXEL_SEEDS", 1000)
+    monkeypatch.setattr("reflcolor_addon.color.colorizer.AUTO_EXACT_PIXEL_SEEDS", 1000)
     method = colorize(scan, seeds, Settings(nearest="auto")).method
     if engine == "scipy":
         assert method["nearest"] is None and "slower" in method["note"]

@@ -7,8 +7,8 @@ import pytest
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, Colorizer, Seeds, Settings, colorize
-from reflcolor_addon.engines import engine_for
-from reflcolor_addon.graph import PixelGraph
+from reflcolor_addon.geodesic.engines import engine_for
+from reflcolor_addon.geodesic.graph import PixelGraph
 
 # Everything holds with the native kernel and without.
 pytestmark = pytest.mark.usefixtures("engine")

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reflcolor_addon.colormaps import GRADIENTS, UNKNOWN, gradient, limits_of, painted, region_colors
+from reflcolor_addon.view.colormaps import GRADIENTS, UNKNOWN, gradient, limits_of, painted, region_colors
 
 
 @pytest.mark.parametrize("name", GRADIENTS)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from reflcolor_addon import colorspaces
+from reflcolor_addon.color import colorspaces
 from reflcolor_addon.settings import COLOR_SPACES
 
 GRAYS = np.arange(256)

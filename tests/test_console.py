@@ -8,12 +8,12 @@ import pytest
 from command_line import COLORIZE, SHAPE, assert_refused, run_process
 from small_scans import random_scan
 
-from reflcolor_addon.writers import write_ptx
+from reflcolor_addon.files.writers import write_ptx
 
 
 def test_progress_is_shown_on_a_terminal_and_leaves_no_trace(run_cli, cli_folder, monkeypatch):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    monkeypatch.setattr("reflcolor_addon.console._REDRAW_S", 0.0)
+    monkeypatch.setattr("reflcolor_addon.cli.console._REDRAW_S", 0.0)
     status, out, err = run_cli(*COLORIZE, "-o", "out.png")
     assert (status, out) == (0, "wrote out.png\n")
     assert " 48%  Seed 1 of 2" in err

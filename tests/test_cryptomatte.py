@@ -2,7 +2,7 @@
 
 import pytest
 
-from reflcolor_addon.cryptomatte import name_as_float
+from reflcolor_addon.simulation.cryptomatte import name_as_float
 
 
 @pytest.mark.parametrize(

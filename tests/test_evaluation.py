@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from small_scans import random_scan
 
 from reflcolor_addon import ScanError, evaluate
-from reflcolor_addon.colorspaces import chrominance, merge
-from reflcolor_addon.evaluation import error_map
-from reflcolor_addon.image_files import write_png
-from reflcolor_addon.writers import write_ptx
+from reflcolor_addon.color.colorspaces import chrominance, merge
+from reflcolor_addon.color.evaluation import error_map
+from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.writers import write_ptx
 
 ALL = np.ones(SHAPE, bool)
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from reflcolor_addon import Seeds, colorize, read_scans
-from reflcolor_addon.image_files import read_image
+from reflcolor_addon.files.images import read_image
 
 FOLDER = Path(__file__).resolve().parent.parent / "examples" / "cones"
 

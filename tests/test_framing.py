@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from small_scans import scan_from_ranges
 
 from benchmarks import real_scans
-from reflcolor_addon.framing import frame, frame_in_region, in_world
+from reflcolor_addon.view.framing import frame, frame_in_region, in_world
 
 SCANNER = np.array([20.0, -5.0, 1.5])
 ASPECT = 1.6

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reflcolor_addon.georeference import rigid_pose
+from reflcolor_addon.scan.georeference import rigid_pose
 
 NOWHERE = np.zeros(3)
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from reflcolor_addon.errors import ImageError, OutputError
-from reflcolor_addon.exr import read_exr_channels
-from reflcolor_addon.image_files import eight_bits, read_image, read_measured, write_png
+from reflcolor_addon.files.exr import read_exr_channels
+from reflcolor_addon.files.images import eight_bits, read_image, read_measured, write_png
 
 RGB = np.random.default_rng(2).integers(0, 256, (6, 9, 3), np.uint8)
 

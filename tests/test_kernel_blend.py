@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from dijkstra_reference import reference_blend
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from small_graphs import small_graphs
 
-from reflcolor_addon import kernel
 from reflcolor_addon.errors import ReflcolorError
-from reflcolor_addon.reference import reference_blend
+from reflcolor_addon.geodesic import kernel
 
 ALPHAS = st.sampled_from([0.0, 0.5, 1.0, 2.5, 6.0, 20.0])
 # A hundredth of an 8-bit level.

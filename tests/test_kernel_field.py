@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from dijkstra_reference import reference_distances
 from hypothesis import given, settings
 from small_graphs import small_graphs
 
-from reflcolor_addon import kernel
 from reflcolor_addon.errors import ReflcolorError
-from reflcolor_addon.reference import reference_distances
+from reflcolor_addon.geodesic import kernel
 
 
 @settings(max_examples=1000)

@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reflcolor_addon import kernel, kernel_library
-from reflcolor_addon.engines import NativeEngine
 from reflcolor_addon.errors import Cancelled
-from reflcolor_addon.exact import HeldFields, add_fields
-from reflcolor_addon.graph import PixelGraph
+from reflcolor_addon.geodesic import kernel, kernel_library
+from reflcolor_addon.geodesic.engines import NativeEngine
+from reflcolor_addon.geodesic.exact import HeldFields, add_fields
+from reflcolor_addon.geodesic.graph import PixelGraph
 
 KERNEL = Path(__file__).resolve().parent.parent / "kernel"
 FUZZ = KERNEL.parent / "tools" / "fuzz_kernel.sh"

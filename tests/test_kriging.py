@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reflcolor_addon import Scan, kriging
-from reflcolor_addon.kriging import FEATURES, Kriging, pixel_features, share
+from reflcolor_addon import Scan
+from reflcolor_addon.color import kriging
+from reflcolor_addon.color.kriging import FEATURES, Kriging, pixel_features, share
 
 seed_counts = st.integers(1, 40)
 
@@ -76,7 +77,7 @@ def test_many_seeds_are_left_out_in_groups(monkeypatch):
     generator = np.random.default_rng(6)
     features, colors = random_seeds(25, generator)
     pixels = generator.normal(size=(20, FEATURES))
-    monkeypatch.setattr("reflcolor_addon.kriging._GROUP", 8)
+    monkeypatch.setattr("reflcolor_addon.color.kriging._GROUP", 8)
     model = Kriging(features, colors)
     assert np.isfinite(model.estimate(pixels)).all()
     assert np.isfinite(model.residuals).all()

@@ -8,9 +8,9 @@ import pytest
 from small_scans import scan_from_ranges
 
 from reflcolor_addon import Seeds, Settings, colorize
-from reflcolor_addon import live as live_module
 from reflcolor_addon.errors import SeedsError
-from reflcolor_addon.live import LiveColorizer
+from reflcolor_addon.view import live as live_module
+from reflcolor_addon.view.live import LiveColorizer
 
 
 def _scan(shape, seed=0):

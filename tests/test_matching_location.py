@@ -7,9 +7,9 @@ import painted_room
 import pytest
 
 from reflcolor_addon import Seeds
-from reflcolor_addon.matching import location
 from reflcolor_addon.matching.match import opened_photos
-from reflcolor_addon.matching.registration import Registration, ScanViews
+from reflcolor_addon.matching.registration import location
+from reflcolor_addon.matching.registration.registration import Registration, ScanViews
 
 CAMERA = painted_room.camera((0.5, 0.3, 0.2), yaw_deg=6)
 

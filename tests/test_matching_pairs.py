@@ -4,8 +4,8 @@ import numpy as np
 import painted_room
 import pytest
 
-from reflcolor_addon.matching.pairs import camera_from_pairs
 from reflcolor_addon.matching.photo_image import PhotoImage
+from reflcolor_addon.matching.registration.pairs import camera_from_pairs
 
 PHOTO = PhotoImage("photo", np.zeros((360, 480, 3), np.uint8))
 POINTS = np.array([

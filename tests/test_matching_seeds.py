@@ -8,16 +8,9 @@ import painted_room
 import pytest
 
 from reflcolor_addon import Cancelled, ImageError, Scan, Seeds, SeedsError, Settings
-from reflcolor_addon.matching import (
-    draw_matches,
-    location,
-    match_photos,
-    match_seeds,
-    match_site,
-    registration,
-    sphere_map,
-)
-from reflcolor_addon.matching.registration import Registration
+from reflcolor_addon.matching import draw_matches, match_photos, match_seeds, match_site
+from reflcolor_addon.matching.registration import location, registration, sphere_map
+from reflcolor_addon.matching.registration.registration import Registration
 
 FEW = Settings(slic_segments=150)
 

@@ -6,11 +6,11 @@ import numpy as np
 import painted_room
 import pytest
 
-from reflcolor_addon.matching.hog_matching import square_image
 from reflcolor_addon.matching.photo_image import PhotoImage, visible
+from reflcolor_addon.matching.published.hog_matching import square_image
 from reflcolor_addon.matching.scan_image import toned
-from reflcolor_addon.matching.several_photos import blended, gains
-from reflcolor_addon.matching.transfer import seen_by
+from reflcolor_addon.matching.transfer.several_photos import blended, gains
+from reflcolor_addon.matching.transfer.views import seen_by
 
 
 @pytest.fixture(scope="module")

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from reflcolor_addon.matching.tiles import Surfaces
-from reflcolor_addon.matching.verification import RADIUS, judged
+from reflcolor_addon.matching.registration.tiles import Surfaces
+from reflcolor_addon.matching.registration.verification import RADIUS, judged
 
 SIDE = 2 * RADIUS + 1
 SHIFT = np.arange(SIDE) - RADIUS

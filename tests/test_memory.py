@@ -2,8 +2,8 @@
 
 import pytest
 
-from reflcolor_addon import memory
 from reflcolor_addon.errors import ReflcolorError, ScanError
+from reflcolor_addon.files import memory
 
 
 def test_what_fits_passes():

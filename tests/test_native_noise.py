@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from reflcolor_addon.native_noise import quiet_on_failure
+from reflcolor_addon.files.native_noise import quiet_on_failure
 
 
 def test_what_is_printed_before_a_failure_is_dropped(capfd):

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from reflcolor_addon.normalization import PERCENTILES, normalize
+from reflcolor_addon.scan.normalization import PERCENTILES, normalize
 
 EVERYWHERE = np.ones((10, 101), bool)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sample_scans import room_points
 
-from reflcolor_addon.normals import surface_normals
+from reflcolor_addon.scan.normals import surface_normals
 
 
 def plane_points(normal, distance, shape=(20, 30), valid=None):
@@ -37,7 +37,7 @@ def test_strips_leave_no_seam(monkeypatch):
     points = room_points(40, 25, step_deg=(1.0, 3.0))
     valid = np.random.default_rng(2).random(points.shape[:2]) < 0.9
     whole = surface_normals(points, valid)
-    monkeypatch.setattr("reflcolor_addon.normals._CHUNK_PIXELS", 25 * 3)
+    monkeypatch.setattr("reflcolor_addon.scan.normals._CHUNK_PIXELS", 25 * 3)
     assert surface_normals(points, valid) == pytest.approx(whole, abs=1e-5)
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from small_scans import random_scan
 
-from reflcolor_addon.grid_mesh import grid_mesh
-from reflcolor_addon.normalization import normalize
-from reflcolor_addon.object_arrays import object_arrays
+from reflcolor_addon.scan.grid_mesh import grid_mesh
+from reflcolor_addon.scan.normalization import normalize
+from reflcolor_addon.scan.object_arrays import object_arrays
 
 SHAPE = (12, 18)
 

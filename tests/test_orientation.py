@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sample_scans import intensity_of, room_points
 
-from reflcolor_addon.orientation import Flips, flipped, infer_flips
-from reflcolor_addon.scan import Scan
+from reflcolor_addon.scan.orientation import Flips, flipped, infer_flips
+from reflcolor_addon.scan.scan import Scan
 
 TURNS = {(v, h): (slice(None, None, -1 if v else 1), slice(None, None, -1 if h else 1)) for v in (0, 1) for h in (0, 1)}
 

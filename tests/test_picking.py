@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reflcolor_addon.picking import (
+from reflcolor_addon.view.picking import (
     ImageView,
     beads,
     box_outline,

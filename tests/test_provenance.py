@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from small_scans import random_scan
 
 from reflcolor_addon import ReflcolorError, Seeds, Settings, colorize
-from reflcolor_addon.provenance import outline, parse_provenance
-from reflcolor_addon.report import build_report, scan_entry, stamped
+from reflcolor_addon.report.provenance import outline, parse_provenance
+from reflcolor_addon.report.report import build_report, scan_entry, stamped
 
 NOT_SEEN = {"role": "photo", "path": "b.jpg", "bytes": None, "sha256": None}
 

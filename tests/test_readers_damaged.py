@@ -12,7 +12,7 @@ from e57_samples import with_valid_checksums, write_e57
 from sample_scans import intensity_of, ptx_text, room_points
 
 from reflcolor_addon.errors import ScanError
-from reflcolor_addon.readers import read_scans
+from reflcolor_addon.files.readers import read_scans
 
 ROOT = Path(__file__).resolve().parent.parent
 POINTS = room_points()

@@ -8,7 +8,7 @@ from e57_samples import write_e57
 from sample_scans import intensity_of, room_points
 
 from reflcolor_addon.errors import Cancelled, ScanError
-from reflcolor_addon.readers import read_scans
+from reflcolor_addon.files.readers import read_scans
 
 POINTS = room_points()
 INTENSITY = intensity_of(POINTS)
@@ -296,7 +296,7 @@ def test_a_file_without_points_or_returns_is_refused(tmp_path):
 
 
 def test_files_larger_than_a_chunk_are_read_in_pieces_with_progress(tmp_path, monkeypatch):
-    monkeypatch.setattr("reflcolor_addon.readers.e57._CHUNK", 10)
+    monkeypatch.setattr("reflcolor_addon.files.readers.e57._CHUNK", 10)
     path = tmp_path / "garage.e57"
     write_e57(path, {"fields": scan_fields(), "name": "yard"})
     told = []

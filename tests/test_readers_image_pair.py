@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reflcolor_addon.errors import Cancelled, OutputError, ScanError
-from reflcolor_addon.readers import read_scans, scan_json
-from reflcolor_addon.readers.scan_json import write_scan_json
+from reflcolor_addon.files.readers import read_scans, scan_json
+from reflcolor_addon.files.readers.scan_json import write_scan_json
 
 HEIGHT, WIDTH = 8, 10
 PINHOLE = {"type": "pinhole", "fx": 12.0, "fy": 11.0, "cx": 4.5, "cy": 3.5}

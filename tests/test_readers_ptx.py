@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from sample_scans import intensity_of, ptx_text, room_points
 
 from reflcolor_addon.errors import Cancelled, ScanError
-from reflcolor_addon.readers import ptx, read_scans
+from reflcolor_addon.files.readers import ptx, read_scans
 
 POINTS = room_points()
 INTENSITY = intensity_of(POINTS)
@@ -75,7 +75,7 @@ def test_the_last_line_needs_no_end(tmp_path):
 
 @pytest.mark.parametrize("block", [64, 100, 1000])
 def test_where_blocks_of_reading_end_does_not_matter(tmp_path, monkeypatch, block):
-    monkeypatch.setattr("reflcolor_addon.readers.text_lines._BLOCK", block)
+    monkeypatch.setattr("reflcolor_addon.files.readers.text_lines._BLOCK", block)
     (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY, COLOR, end="\r\n"))
     assert np.array_equal(scan.points, POINTS)
     assert np.array_equal(scan.color, COLOR)
@@ -246,7 +246,7 @@ def test_sizes_that_the_file_cannot_hold_are_refused_before_anything_is_allocate
 
 
 def test_a_size_that_does_not_fit_into_memory_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr("reflcolor_addon.memory.available_bytes", lambda: 1000)
+    monkeypatch.setattr("reflcolor_addon.files.memory.available_bytes", lambda: 1000)
     assert "of memory" in failure(tmp_path, ptx_text(POINTS, INTENSITY))
 
 
@@ -272,7 +272,7 @@ def test_binary_and_wide_text_are_refused(tmp_path):
 
 
 def test_cancelling_and_progress(tmp_path, monkeypatch):
-    monkeypatch.setattr("reflcolor_addon.readers.text_lines._BLOCK", 1000)
+    monkeypatch.setattr("reflcolor_addon.files.readers.text_lines._BLOCK", 1000)
     path = tmp_path / "garage.ptx"
     path.write_text(ptx_text(POINTS, INTENSITY))
     told = []

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.real_scans import NAMES, has_truth, load
-from reflcolor_addon.orientation import infer_flips
+from reflcolor_addon.scan.orientation import infer_flips
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ import pytest
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, ReflcolorError, Seeds, Settings, colorize
-from reflcolor_addon.report import build_report, input_entry, scan_entry, stamped
+from reflcolor_addon.report.report import build_report, input_entry, scan_entry, stamped
 from reflcolor_addon.version import __version__
 
 ROOT = Path(__file__).resolve().parent.parent

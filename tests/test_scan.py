@@ -5,7 +5,7 @@ import pytest
 from sample_scans import intensity_of, room_points
 
 from reflcolor_addon.errors import ScanError
-from reflcolor_addon.scan import Scan
+from reflcolor_addon.scan.scan import Scan
 
 
 def scan_of(points, /, valid=None, **changes):

@@ -9,9 +9,10 @@ import pytest
 from blender_session import EXTENSION
 
 from reflcolor_addon import read_scans
-from reflcolor_addon.image_files import read_image
-from reflcolor_addon.virtual_camera import VirtualCamera, look_at
-from reflcolor_addon.virtual_scanner import ScannerModel, directions, simulate_scan
+from reflcolor_addon.files.images import read_image
+from reflcolor_addon.scan.directions import directions
+from reflcolor_addon.simulation.virtual_camera import VirtualCamera, look_at
+from reflcolor_addon.simulation.virtual_scanner import ScannerModel, simulate_scan
 
 IDEAL = ScannerModel(rows=24, columns=36, azimuth_deg=(-30, 30), elevation_deg=(-40, 10)).ideal()
 
@@ -19,13 +20,13 @@ IDEAL = ScannerModel(rows=24, columns=36, azimuth_deg=(-30, 30), elevation_deg=(
 @pytest.fixture
 def renders(blender):
     """The module `scene_renders` of the installed extension."""
-    return importlib.import_module(f"{EXTENSION}.operators.scene_renders")
+    return importlib.import_module(f"{EXTENSION}.operators.scene.scene_renders")
 
 
 @pytest.fixture
 def simulation(blender):
     """The module `simulation` of the installed extension."""
-    return importlib.import_module(f"{EXTENSION}.operators.simulation")
+    return importlib.import_module(f"{EXTENSION}.operators.scene.simulation")
 
 
 def add_box(blender, center, size, *, color=None, nir=None, metallic=0.0):

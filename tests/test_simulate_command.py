@@ -9,8 +9,8 @@ import pytest
 from command_line import assert_refused, blender_door
 
 from reflcolor_addon import read_scans
-from reflcolor_addon.image_files import read_image
-from reflcolor_addon.virtual_scanner import ScannerModel
+from reflcolor_addon.files.images import read_image
+from reflcolor_addon.simulation.virtual_scanner import ScannerModel
 
 # A floor, a red wall five metres ahead (along Y) of "Station", two cameras, and an object to stand at, turned to look
 # along -X, where a blue wall is three metres away.

@@ -14,10 +14,10 @@ from test_blender_import import srgb, write_small_ptx
 from benchmarks.own_colors import own_seeds
 from benchmarks.real_scans import NAMES, has_truth, load
 from reflcolor_addon import Colorizer, Seeds, Settings, SettingsError, colorize, evaluate, read_scans
-from reflcolor_addon import live as live_module
-from reflcolor_addon.normalization import normalize
+from reflcolor_addon.color.tone import DARK_MEDIAN, LIGHT_MEDIAN, tone_to_try, toned
+from reflcolor_addon.scan.normalization import normalize
 from reflcolor_addon.settings import COLOR_SPACES, PRESETS, TONE_RANGE
-from reflcolor_addon.tone import DARK_MEDIAN, LIGHT_MEDIAN, tone_to_try, toned
+from reflcolor_addon.view import live as live_module
 
 LUMA = np.array([0.299, 0.587, 0.114])
 HINT = "the colors are dark because most of the reflectance is; try tone "

@@ -74,7 +74,7 @@ def test_the_catalogue_is_taken_off_with_the_extension(installed_blender):
 @pytest.fixture
 def texts(installed_blender, monkeypatch):
     """The helpers, with a catalogue that knows two lines of the core."""
-    module = sys.modules[f"{EXTENSION}.operators.texts"]
+    module = sys.modules[f"{EXTENSION}.operators.scene.texts"]
     known = {"seed {}: no return at row {}": "Saatpunkt {}: keine Messung in Zeile {}", "Seed {} of {}": "S {} / {}"}
     monkeypatch.setattr(module, "pgettext_rpt", lambda text: known.get(text, text))
     return module

@@ -5,7 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from reflcolor_addon.virtual_camera import VirtualCamera, linear_to_srgb8, look_at, srgb8_to_linear
+from reflcolor_addon.simulation.virtual_camera import VirtualCamera, look_at
+from reflcolor_addon.srgb import linear_to_srgb8, srgb8_to_linear
 
 
 def test_the_target_falls_into_the_middle_of_the_picture():

@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reflcolor_addon.errors import Cancelled, SettingsError
-from reflcolor_addon.virtual_camera import linear_to_srgb8
-from reflcolor_addon.virtual_scanner import Hits, ScannerModel, directions, simulate_scan
+from reflcolor_addon.scan.directions import directions
+from reflcolor_addon.simulation.virtual_scanner import Hits, ScannerModel, simulate_scan
+from reflcolor_addon.srgb import linear_to_srgb8
 
 
 def wall(distance, *, albedo=0.5, color=(10, 20, 30)):

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
 from reflcolor_addon import read_scans  # noqa: E402
-from reflcolor_addon.normalization import normalize  # noqa: E402
+from reflcolor_addon.scan.normalization import normalize  # noqa: E402
 
 EXAMPLE = ROOT / "examples" / "cones"
 OUTPUT = ROOT / "demo"

@@ -7,7 +7,7 @@ import math
 import struct
 from pathlib import Path
 
-TARGET = Path(__file__).resolve().parent.parent / "operators" / "seeds_icon.dat"
+TARGET = Path(__file__).resolve().parent.parent / "operators" / "window" / "seeds_icon.dat"
 GRAY = (229, 229, 229, 255)
 
 

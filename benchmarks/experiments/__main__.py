@@ -12,7 +12,7 @@ from pathlib import Path
 
 from benchmarks.experiments import cases, meshes, pictures, tables
 from reflcolor_addon import Seeds, Settings, colorize
-from reflcolor_addon.image_files import read_image
+from reflcolor_addon.files.images import read_image
 from reflcolor_addon.matching import match_site
 from reflcolor_addon.settings import PRESETS
 

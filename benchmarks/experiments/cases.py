@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from reflcolor_addon import Scan, read_scans
-from reflcolor_addon.image_files import read_image
+from reflcolor_addon.files.images import read_image
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 HOUSE_SIDES = ("south", "east", "north", "west")

@@ -29,7 +29,7 @@ class Renderer:
         self._objects, self._render = (
             importlib.import_module(f"{self._session.EXTENSION}.operators.{name}") for name in names
         )
-        core = importlib.import_module(f"{self._session.EXTENSION}.reflcolor_addon.object_arrays")
+        core = importlib.import_module(f"{self._session.EXTENSION}.reflcolor_addon.scan.object_arrays")
         self._object_arrays = core.object_arrays
 
     def picture(self, scans, colors=None, view=None):

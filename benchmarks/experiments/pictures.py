@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 
-from reflcolor_addon.normalization import normalize
+from reflcolor_addon.scan.normalization import normalize
 
 _GAP = 8
 _QUALITIES = range(92, 40, -4)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from reflcolor_addon import colorize, evaluate
-from reflcolor_addon.evaluation import error_map
+from reflcolor_addon.color.evaluation import error_map
 
 # A step in range of this share is a jump edge; what lies within so many pixels of one is near it.
 _JUMP_SHARE, _NEAR_PX = 0.03, 4

@@ -10,15 +10,15 @@ import sys
 
 import numpy as np
 
-from reflcolor_addon import colorspaces, kriging
-from reflcolor_addon.blending import left_out
-from reflcolor_addon.engines import engine_for
-from reflcolor_addon.evaluation import evaluate
-from reflcolor_addon.graph import PixelGraph
-from reflcolor_addon.normalization import normalize
-from reflcolor_addon.normals import surface_normals
+from reflcolor_addon.color import colorspaces, kriging
+from reflcolor_addon.color.evaluation import evaluate
+from reflcolor_addon.color.smoothing import smooth
+from reflcolor_addon.geodesic.blending import left_out
+from reflcolor_addon.geodesic.engines import engine_for
+from reflcolor_addon.geodesic.graph import PixelGraph
+from reflcolor_addon.scan.normalization import normalize
+from reflcolor_addon.scan.normals import surface_normals
 from reflcolor_addon.settings import Settings
-from reflcolor_addon.smoothing import smooth
 
 from . import peers
 from .scenes import CHOSEN_ON, COUNTS, NAMES, OTHERS, SIMULATED, load, perfect_seeds

@@ -5,9 +5,9 @@ import time
 import numpy as np
 
 from reflcolor_addon import Settings, colorize
-from reflcolor_addon.colorspaces import merge
-from reflcolor_addon.evaluation import error_map, evaluate
-from reflcolor_addon.normalization import normalize
+from reflcolor_addon.color.colorspaces import merge
+from reflcolor_addon.color.evaluation import error_map, evaluate
+from reflcolor_addon.scan.normalization import normalize
 
 from . import peers
 from .scenes import load, perfect_seeds

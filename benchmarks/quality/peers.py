@@ -4,8 +4,8 @@ import warnings
 
 import numpy as np
 
-from reflcolor_addon.colorspaces import chrominance
-from reflcolor_addon.normalization import normalize
+from reflcolor_addon.color.colorspaces import chrominance
+from reflcolor_addon.scan.normalization import normalize
 
 _NEIGHBORS = tuple((down, right) for down in (-1, 0, 1) for right in (-1, 0, 1) if down or right)
 # Of the guided filter: half the window in pixels, and what variance of Y (0..1) counts as an edge.

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks import real_scans
-from reflcolor_addon.image_files import read_image
-from reflcolor_addon.normalization import normalize
-from reflcolor_addon.readers import read_scans
-from reflcolor_addon.seeds import Seeds
+from reflcolor_addon.files.images import read_image
+from reflcolor_addon.files.readers import read_scans
+from reflcolor_addon.scan.normalization import normalize
+from reflcolor_addon.seeds.seeds import Seeds
 
 ROOT = Path(__file__).resolve().parents[2]
 SIMULATED = {"cones": "examples/cones"}

@@ -10,9 +10,9 @@ import sys
 import numpy as np
 
 from benchmarks import real_scans
-from reflcolor_addon import colorspaces
-from reflcolor_addon.evaluation import evaluate
-from reflcolor_addon.normalization import normalize
+from reflcolor_addon.color import colorspaces
+from reflcolor_addon.color.evaluation import evaluate
+from reflcolor_addon.scan.normalization import normalize
 
 from .scenes import load
 

@@ -9,9 +9,9 @@ import sys
 import numpy as np
 
 from reflcolor_addon import Colorizer, Settings
-from reflcolor_addon.evaluation import evaluate
-from reflcolor_addon.normalization import normalize
-from reflcolor_addon.tone import tone_to_try
+from reflcolor_addon.color.evaluation import evaluate
+from reflcolor_addon.color.tone import tone_to_try
+from reflcolor_addon.scan.normalization import normalize
 
 from .scenes import NAMES, load, perfect_seeds
 

@@ -10,7 +10,7 @@ _PACKAGE = "reflcolor"
 
 
 def module(name):
-    """Import a module of the extension by its dotted name below the extension, e.g. "operators.scene_renders"."""
+    """Import a module of the extension by its dotted name below the extension, e.g. "operators.scene.scene_renders"."""
     if _PACKAGE not in sys.modules:
         package = ModuleType(_PACKAGE)
         # A package without its __init__: that one registers classes, which only Blender's extension system should do.

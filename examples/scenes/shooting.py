@@ -11,12 +11,12 @@ import numpy as np
 
 from .extension import module
 
-atomic = module("reflcolor_addon.atomic")
-image_files = module("reflcolor_addon.image_files")
-cameras = module("reflcolor_addon.virtual_camera")
-renders = module("operators.scene_renders")
-scanner = module("reflcolor_addon.virtual_scanner")
-writers = module("reflcolor_addon.writers")
+atomic = module("reflcolor_addon.files.atomic")
+image_files = module("reflcolor_addon.files.images")
+cameras = module("reflcolor_addon.simulation.virtual_camera")
+renders = module("operators.scene.scene_renders")
+scanner = module("reflcolor_addon.simulation.virtual_scanner")
+writers = module("reflcolor_addon.files.writers")
 
 _JPEG_QUALITY = 90
 _LARGEST_DEPTH_M = 65.0

@@ -1,4 +1,4 @@
-"""The shared library of the geodesic kernel; reflcolor_addon/kernel.py calls it through ctypes."""
+"""The shared library of the geodesic kernel; reflcolor_addon/geodesic/kernel.py calls it through ctypes."""
 
 from pathlib import Path
 

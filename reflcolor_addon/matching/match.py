@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import Cancelled, ImageError, SeedsError
-from ..image_files import read_image
-from ..seeds import Seeds
+from ..files.images import read_image
+from ..seeds.seeds import Seeds
 from ..settings import Settings
 from . import site
-from .hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .photo_image import PhotoImage
+from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .scan_image import toned
 
 _LEAST_SIDE = 16

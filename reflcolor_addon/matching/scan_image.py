@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..normalization import normalize
+from ..scan.normalization import normalize
 from .edges import filled, scan_features
 
 TONES = ("ranks", "percentiles")

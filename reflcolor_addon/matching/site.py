@@ -4,14 +4,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..seeds import Seeds
-from .appearance import LEAST_CONFIDENCE, Appearance, described
-from .fallback import cautious_colors, mean_color
-from .hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
-from .location import located
-from .registration import ScanViews
-from .several_photos import blended, gains
-from .transfer import seen_by
+from ..seeds.seeds import Seeds
+from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
+from .registration.location import located
+from .registration.registration import ScanViews
+from .transfer.appearance import LEAST_CONFIDENCE, Appearance, described
+from .transfer.fallback import cautious_colors, mean_color
+from .transfer.several_photos import blended, gains
+from .transfer.views import seen_by
 
 _STEPS_PER_PHOTO = 40
 

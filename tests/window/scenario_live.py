@@ -16,7 +16,7 @@ class Watch:
     """Notes when results are shown, and how long the window's thread is taken by it."""
 
     def __init__(self):
-        self.module = importlib.import_module(f"{EXTENSION}.operators.live_update")
+        self.module = importlib.import_module(f"{EXTENSION}.operators.window.live_update")
         self.shown, self.busy_ms = [], []
         self._show, self._follow = self.module._show, self.module._follow
 

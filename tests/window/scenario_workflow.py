@@ -58,7 +58,7 @@ def scenario_six_pairs_by_hand_color_the_example(window):
     window.equal(len(window.scan.reflcolor.seeds), 6, "seeds")
     window.check(all(seed.has_color and seed.photo for seed in window.scan.reflcolor.seeds), "each is a pair")
     window.equal(clicks, 12, "clicks")
-    module = "bl_ext.user_default.reflcolor.operators.live_update"
+    module = "bl_ext.user_default.reflcolor.operators.window.live_update"
     live = __import__(module, fromlist=["_live"])
     yield from window.until(lambda: live._live is not None and live._live.settled(), 30, "the preview is whole")
     yield 0.5

@@ -141,7 +141,7 @@ class Window(Hands, Eyes, Buttons, Stalls):
 
     def running(self):
         """Return the extension's job that runs in the window, or None."""
-        return importlib.import_module(f"{EXTENSION}.operators.jobs").running()
+        return importlib.import_module(f"{EXTENSION}.operators.window.jobs").running()
 
     @property
     def scene(self):

@@ -1,0 +1,1 @@
+"""What ties Blender's data to arrays."""

@@ -1,0 +1,296 @@
+"""A scan as an object of Blender, and back."""
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ...reflcolor_addon.errors import ScanError
+from ...reflcolor_addon.scan.georeference import origin_shift, rigid_pose
+from ...reflcolor_addon.scan.scan import Scan
+from .images import write_image
+from .nodes import node_tree_of
+from .texts import told
+
+GRAY = "Reflectance Gray"
+COLORIZED = "Colorized"
+SCANNED = "Scanned Color"
+CONFIDENCE = "confidence"
+NEAREST_SEED = "nearest_seed"
+ERROR = "error"
+SHIFT = "reflcolor_shift"
+CENTER = "reflcolor_center"
+_KINDS = {np.float32: "FLOAT", np.int32: "INT"}
+
+
+def add_scan_object(context, arrays):
+    """Make the object of a scan, with mesh, attributes, images and material; select it and make it active.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    arrays : ObjectArrays
+    """
+    scene = context.scene
+    pose = arrays.pose.copy()
+    shift = origin_shift(pose[:3, 3], scene.get(SHIFT))
+    pose[:3, 3] = (pose[:3, 3] - shift) * arrays.units_per_metre
+
+    mesh = bpy.data.meshes.new(arrays.name)
+    _fill_mesh(mesh, arrays)
+    obj = bpy.data.objects.new(arrays.name, mesh)
+    obj.matrix_world = Matrix(pose)
+    # Doubles: a shift of six digits does not fit into a float property.
+    obj[SHIFT] = scene[SHIFT] = shift.tolist()
+    mesh[CENTER] = arrays.center.tolist()
+    state = obj.reflcolor
+    state.rows, state.cols = arrays.shape
+    state.source = str(arrays.source or "")
+    name = f"{arrays.name} Reflectance"
+    state.reflectance_image = write_image(None, name, arrays.reflectance_image, is_data=False)
+    state.range_image = write_image(None, f"{arrays.name} Range", arrays.range_image, is_data=True)
+    for image in (state.reflectance_image, state.range_image):
+        image.display_aspect = (arrays.pixel_aspect, 1.0)
+    add_colors(obj, GRAY, arrays.gray)
+    if arrays.scanned is not None:
+        add_colors(obj, SCANNED, arrays.scanned)
+    mesh.materials.append(_material(arrays.name))
+    show_colors(obj, GRAY)
+
+    context.collection.objects.link(obj)
+    for other in context.selected_objects:
+        other.select_set(False)
+    obj.select_set(True)
+    context.view_layer.objects.active = obj
+    return obj
+
+
+def scan_of(obj):
+    """Return the Scan that an object was made from, read back from its mesh; raises as `scan_reader`."""
+    return scan_reader(obj)()
+
+
+def scan_reader(obj):
+    """Return a function that makes the Scan that an object was made from; it touches no bpy, a thread may call it.
+
+    The scan's pose is where the object is now, without its scale and without the kilometres of `SHIFT`.
+
+    Raises
+    ------
+    ScanError
+        If the mesh has lost the attributes that tie its vertices to the scan's grid.
+    """
+    mesh, name, shape = obj.data, obj.name, (obj.reflcolor.rows, obj.reflcolor.cols)
+    place = grid_indices(obj)
+    measured = values_of(obj, "reflectance", np.float32)
+    coordinates = coordinates_of(mesh)
+    metres = bpy.context.scene.unit_settings.scale_length
+    center = np.array(mesh.get(CENTER, (0, 0, 0)))
+    pose = rigid_pose(obj.matrix_world, metres, center)
+
+    def read():
+        reflectance, points, valid = np.zeros(shape, np.float32), np.zeros((*shape, 3)), np.zeros(shape, bool)
+        reflectance[place], valid[place] = measured, True
+        points[place] = coordinates.astype(np.float64) * metres + center
+        return Scan(name=name, points=points, reflectance=reflectance, valid=valid, pose=pose)
+
+    return read
+
+
+def grid_indices(obj):
+    """Return (N,) rows and (N,) columns of the scan's grid, one of each per vertex.
+
+    Raises
+    ------
+    ScanError
+        If the attributes are gone or point outside the grid.
+    """
+    rows, cols = (values_of(obj, name, np.int32) for name in ("grid_row", "grid_col"))
+    state = obj.reflcolor
+    if rows.size and (rows.min() < 0 or cols.min() < 0 or rows.max() >= state.rows or cols.max() >= state.cols):
+        raise ScanError(
+            told("{name}: grid_row and grid_col point outside the scan; import the scan again", name=obj.name)
+        )
+    return rows, cols
+
+
+def own_image(obj, name):
+    """Return the image that the object's state names; None where there is none or a copy of the object has the same."""
+    image = getattr(obj.reflcolor, name)
+    shared = any(other != obj and getattr(other.reflcolor, name) == image for other in bpy.data.objects)
+    return None if shared else image
+
+
+def show_like_reflectance(obj, image):
+    """Have an image of the scan's grid shown with pixels of the same shape as the reflectance image."""
+    reflectance = obj.reflcolor.reflectance_image
+    if reflectance is not None:
+        image.display_aspect = reflectance.display_aspect
+
+
+def coordinates_of(mesh):
+    """Return (N, 3) float32, where the vertices of a mesh are."""
+    coordinates = np.empty(3 * len(mesh.vertices), np.float32)
+    # Many times faster than one by one; but in Edit Mode attributes are shown as empty.
+    if mesh.is_editmode:
+        mesh.vertices.foreach_get("co", coordinates)
+    else:
+        mesh.attributes["position"].data.foreach_get("vector", coordinates)
+    return coordinates.reshape(-1, 3)
+
+
+def seed_vertices(obj, rows, cols):
+    """Return where pixels of the scan are in the world, and which of them have a vertex.
+
+    Parameters
+    ----------
+    rows, cols : (S,) int
+
+    Returns
+    -------
+    places : (S, 3) float32
+    known : (S,) bool
+    """
+    mesh, width = obj.data, obj.reflcolor.cols
+    grid_rows, grid_cols = grid_indices(obj)
+    vertex = np.full(obj.reflcolor.rows * width, -1, np.int32)
+    vertex[grid_rows * width + grid_cols] = np.arange(len(grid_rows))
+    inside = (rows < obj.reflcolor.rows) & (cols < width)
+    index = np.where(inside, vertex[np.where(inside, rows * width + cols, 0)], -1)
+    known = index >= 0
+    local = coordinates_of(mesh)[np.where(known, index, 0)]
+    return local @ np.array(obj.matrix_world.to_3x3(), np.float32).T + np.array(obj.matrix_world.translation), known
+
+
+def add_colors(obj, name, rgb):
+    """Write (N, 3) uint8 sRGB, one per vertex, as a color attribute of that name; one that is there is replaced."""
+    _check_readable(obj)
+    mesh = obj.data
+    attribute = mesh.color_attributes.get(name)
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", "BYTE_COLOR"):
+        mesh.color_attributes.remove(attribute)
+        attribute = None
+    if attribute is None:
+        attribute = mesh.color_attributes.new(name, "BYTE_COLOR", "POINT")
+    rgba = np.ones((len(mesh.vertices), 4), np.float32)
+    rgba[:, :3] = rgb / np.float32(255)
+    attribute.data.foreach_set("color_srgb", rgba.ravel())
+    mesh.update()
+
+
+def colors_of(obj, name):
+    """Return (N, 3) uint8 sRGB, one per vertex, of the color attribute of that name.
+
+    Raises
+    ------
+    ScanError
+        If it is there no more, or has other than one color per vertex.
+    """
+    _check_readable(obj)
+    attribute = obj.data.color_attributes.get(name)
+    if attribute is None or attribute.domain != "POINT":
+        raise ScanError(
+            told(
+                "{object}: the mesh has no color attribute {name} with one color per vertex", object=obj.name, name=name
+            )
+        )
+    rgba = np.empty(4 * len(attribute.data), np.float32)
+    attribute.data.foreach_get("color_srgb", rgba)
+    return np.rint(np.clip(rgba.reshape(-1, 4)[:, :3], 0, 1) * 255).astype(np.uint8)
+
+
+def add_values(obj, name, values):
+    """Write (N,) numbers, one per vertex, as an attribute of that name; one that is there is replaced.
+
+    Whole numbers are kept as int32, others as float32.
+    """
+    _check_readable(obj)
+    values = np.asarray(values)
+    dtype = np.int32 if values.dtype.kind in "iu" else np.float32
+    attribute = obj.data.attributes.get(name)
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
+        obj.data.attributes.remove(attribute)
+        attribute = None
+    if attribute is None:
+        attribute = obj.data.attributes.new(name, _KINDS[dtype], "POINT")
+    attribute.data.foreach_set("value", np.ascontiguousarray(values, dtype))
+    obj.data.update()
+
+
+def values_of(obj, name, dtype):
+    """Return the (N,) float32 or int32, one per vertex, of the attribute of that name.
+
+    Raises
+    ------
+    ScanError
+        If it is there no more, or holds something else.
+    """
+    _check_readable(obj)
+    attribute = obj.data.attributes.get(name)
+    if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
+        raise ScanError(
+            told(
+                "{object}: the mesh has lost its attribute {name}; undo what removed it, or import again",
+                object=obj.name,
+                name=name,
+            )
+        )
+    values = np.empty(len(attribute.data), dtype)
+    attribute.data.foreach_get("value", values)
+    return values
+
+
+def show_colors(obj, name):
+    """Make a color attribute the one that is seen: in viewports, renders and exports."""
+    mesh = obj.data
+    look_at(obj, name)
+    mesh.color_attributes.render_color_index = mesh.color_attributes.find(name)
+    for material in filter(None, mesh.materials):
+        for node in material.node_tree.nodes if material.node_tree else ():
+            if node.type == "VERTEX_COLOR":
+                node.layer_name = name
+
+
+def look_at(obj, name):
+    """Make a color attribute the one that solid viewports show; renders and exports keep theirs."""
+    obj.data.color_attributes.active_color_name = name
+    # Solid views show the material's one color unless told otherwise.
+    for screen in bpy.data.screens:
+        for area in screen.areas:
+            if area.type == "VIEW_3D" and area.spaces.active.shading.color_type == "MATERIAL":
+                area.spaces.active.shading.color_type = "VERTEX"
+
+
+def _fill_mesh(mesh, arrays):
+    """Vertices, faces, UV map and attributes, in bulk."""
+    corners, faces = arrays.corners, arrays.corners.size // 4
+    mesh.vertices.add(arrays.coordinates.size // 3)
+    mesh.loops.add(corners.size)
+    mesh.polygons.add(faces)
+    # As attributes they are written in one piece, as "co" and "vertex_index" one by one.
+    mesh.attributes["position"].data.foreach_set("vector", arrays.coordinates)
+    if faces:
+        mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
+        mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, 4, dtype=np.int32))
+    mesh.update(calc_edges=True)
+    mesh.uv_layers.new(name="Scan Grid").uv.foreach_set("vector", arrays.uv)
+    for name, values in arrays.values.items():
+        mesh.attributes.new(name, _KINDS[values.dtype.type], "POINT").data.foreach_set("value", values)
+
+
+def _check_readable(obj):
+    """Raise ScanError in Edit Mode, where Blender keeps the mesh elsewhere and shows its attributes as empty."""
+    if obj.data.is_editmode:
+        raise ScanError(f"{obj.name}: leave Edit Mode first")
+
+
+def _material(name):
+    """A matte material that takes its color from a named Color Attribute node."""
+    material = bpy.data.materials.new(name)
+    nodes, links = node_tree_of(material).nodes, material.node_tree.links
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Roughness"].default_value = 1.0
+    shader.inputs["Specular IOR Level"].default_value = 0.0
+    color = nodes.new("ShaderNodeVertexColor")
+    color.location = (shader.location.x - 250, shader.location.y)
+    links.new(color.outputs["Color"], shader.inputs["Base Color"])
+    return material

@@ -1,0 +1,119 @@
+"""The files that only Blender writes: .blend, .glb, .ply and a rendered picture."""
+
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from io import StringIO
+
+import bpy
+
+from ...reflcolor_addon.errors import OutputError
+from ...reflcolor_addon.files.atomic import written_atomically
+from ...reflcolor_addon.scan.object_arrays import object_arrays
+from .colorized_object import show_colorization
+from .provenance import record_provenance
+from .render import add_camera_and_lights, render
+from .scan_object import CONFIDENCE, NEAREST_SEED, add_scan_object
+from .seed_list import append_seeds
+
+
+def write_results(results, paths, picture, progress):
+    """Write colorized scans to every path, in the format of its suffix, and render a picture of them.
+
+    Parameters
+    ----------
+    results : iterable of (Scan, Colorization, dict)
+        The dictionary is the report; it is kept with the scan's object.
+    paths : list of Path
+        Files to write: .blend, .glb or .ply.
+    picture : Path or None
+        PNG file to render.
+    progress : callable
+        Called as ``progress(fraction, text)``.
+
+    Raises
+    ------
+    OutputError
+        If a file cannot be written.
+    """
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    context = bpy.context
+    objects = []
+    for result in results:
+        progress(0.0, "Building the scene")
+        objects.append(_add_object(context, *result))
+    for obj in objects:
+        obj.select_set(True)
+    context.view_layer.objects.active = objects[0]
+    steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
+    if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
+        # All of a site's scans together would be looked at from far above what they stand around.
+        add_camera_and_lights(context, objects[0])
+    if picture is not None:
+        steps.append((picture, lambda path: render(context, path)))
+    for done, (path, write) in enumerate(steps):
+        progress(done / len(steps), f"Writing {path.name}")
+        _write(path, write)
+
+
+def _add_object(context, scan, colorization, report):
+    obj = add_scan_object(context, object_arrays(scan))
+    append_seeds(obj, colorization.seeds)
+    show_colorization(obj, colorization)
+    record_provenance(obj, report)
+    return obj
+
+
+def _write(path, write):
+    with written_atomically(path) as temporary:
+        try:
+            write(temporary)
+        except RuntimeError as error:
+            raise OutputError(f"{path}: Blender could not write it: {str(error).strip().splitlines()[-1]}") from error
+
+
+def _write_blend(path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, compress=True, check_existing=False)
+
+
+def _write_glb(path):
+    # The exporter prints its own progress, and "ERROR" for compressions that are not used here.
+    with redirect_stdout(StringIO()), redirect_stderr(StringIO()), _named_for_gltf(bpy.context.selected_objects):
+        bpy.ops.export_scene.gltf(
+            filepath=str(path),
+            export_format="GLB",
+            use_selection=True,
+            export_extras=False,
+            export_apply=False,
+            export_attributes=True,
+        )
+
+
+@contextmanager
+def _named_for_gltf(objects):
+    """Call attributes, within the block, as glTF calls an application's own: it drops those of other names."""
+    names = {name: f"_{name.upper()}" for name in (CONFIDENCE, NEAREST_SEED)}
+    for obj in objects:
+        for name, exported in names.items():
+            obj.data.attributes[name].name = exported
+    try:
+        yield
+    finally:
+        for obj in objects:
+            for name, exported in names.items():
+                obj.data.attributes[exported].name = name
+
+
+def _write_ply(path):
+    bpy.ops.wm.ply_export(
+        filepath=str(path),
+        export_selected_objects=True,
+        export_colors="SRGB",
+        export_uv=True,
+        export_attributes=True,
+        ascii_format=False,
+        check_existing=False,
+        forward_axis="Y",
+        up_axis="Z",
+    )
+
+
+_WRITERS = {".blend": _write_blend, ".glb": _write_glb, ".ply": _write_ply}

@@ -1,0 +1,1 @@
+"""What belongs to Blender's window: tools, pointer, long work, live update."""

@@ -1,0 +1,161 @@
+"""Long work of operators: blocking in scripts and in background, in a thread with progress and ESC in the window."""
+
+import threading
+
+import bpy
+
+from ...reflcolor_addon.errors import Cancelled
+from ..scene.reports import reported
+from ..scene.texts import core_line, label, told
+
+_running = []
+
+
+def running():
+    """Return the job that runs in the window, or None."""
+    return _running[-1] if _running else None
+
+
+def stop_all():
+    """End whatever still runs, and wait for it; the extension is about to go."""
+    for job in _running:
+        job.cancel(wait=True)
+    _running.clear()
+
+
+class Job:
+    """One piece of work in a thread of its own; it touches no bpy.
+
+    Parameters
+    ----------
+    name : str
+        What it does, for the status bar.
+    work : callable
+        Called as ``work(progress, cancelled)``.
+    """
+
+    def __init__(self, name, work):
+        self.name = name
+        self.fraction = 0.0
+        self.text = ""
+        self.result = None
+        self.error = None
+        self._work = work
+        self._cancel = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"reflcolor {name}", daemon=True)
+        self._thread.start()
+
+    def _run(self):
+        try:
+            self.result = self._work(self._progress, self._cancel.is_set)
+        except BaseException as error:  # whatever it is goes to the window's thread, which raises it
+            self.error = error
+
+    def _progress(self, fraction, text):
+        self.fraction, self.text = fraction, text
+
+    @property
+    def alive(self):
+        """Whether the work still goes on."""
+        return self._thread.is_alive()
+
+    @property
+    def stopping(self):
+        """Whether ESC was pressed."""
+        return self._cancel.is_set()
+
+    def cancel(self, *, wait=False):
+        """Ask the work to end; with ``wait``, return when it has."""
+        self._cancel.set()
+        if wait:
+            self._thread.join()
+
+
+class JobOperator:
+    """An operator with long work.
+
+    A subclass gives ``job_name``, ``prepare(context)``, which reads what it needs from Blender and returns
+    ``work(progress, cancelled)``, and ``finish(context, result)``, which writes the result in one step.
+    """
+
+    _job = None
+
+    def execute(self, context):
+        return self.run_blocking(context)
+
+    def invoke(self, context, _event):
+        return self.start(context)
+
+    @reported
+    def run_blocking(self, context):
+        """Do all of it before returning, as scripts and background mode expect."""
+        self.finish(context, self.prepare(context)(None, None))
+        return {"FINISHED"}
+
+    @reported
+    def start(self, context):
+        """Run in the window, going on with events; blocking where there is no window."""
+        if bpy.app.background or context.window is None:
+            return self.run_blocking(context)
+        if running() is not None:
+            self.report({"WARNING"}, told("{name} is still running; press ESC to cancel it", name=told(running().name)))
+            return {"CANCELLED"}
+        self._job = Job(self.job_name, self.prepare(context))
+        _running.append(self._job)
+        self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        self._show(context)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS" and self._job.alive:
+            self._job.cancel()
+            self._show(context)
+            return {"RUNNING_MODAL"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        if self._job.alive:
+            self._show(context)
+            return {"PASS_THROUGH"}
+        self._end(context)
+        return self._outcome(context)
+
+    def cancel(self, context):
+        """Blender ends the operator, because its window or file goes away, or its file browser was left."""
+        if self._job is not None:
+            self._job.cancel(wait=True)
+            self._end(context)
+
+    @reported
+    def _outcome(self, context):
+        error = self._job.error
+        if isinstance(error, Cancelled) or (error is None and self._job.stopping):
+            self.report({"INFO"}, told("{name} cancelled; nothing was changed", name=told(self.job_name)))
+            return {"CANCELLED"}
+        if error is not None:
+            raise error
+        self.finish(context, self._job.result)
+        return {"FINISHED"}
+
+    def _show(self, context):
+        job = self._job
+        if context.workspace is not None:
+            going_on = f"{job.fraction:.0%}  {core_line(job.text)}   |   {label('ESC: Cancel')}"
+            text = label("Cancelling") if job.stopping else going_on
+            context.workspace.status_text_set(f"{label(job.name)}:  {text}")
+        _redraw_views(context)
+
+    def _end(self, context):
+        context.window_manager.event_timer_remove(self._timer)
+        if self._job in _running:
+            _running.remove(self._job)
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+        _redraw_views(context)
+
+
+def _redraw_views(context):
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
+                area.tag_redraw()

@@ -1,0 +1,255 @@
+"""Live Update: while it is on, the colors of the active scan follow its seeds and settings.
+
+What is shown meanwhile is a preview: an image of its own, over the images and, in Solid shading, on the mesh. The
+colors that the scan has stay as they are, and are seen again when Live Update is turned off.
+"""
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ...reflcolor_addon.errors import ReflcolorError
+from ...reflcolor_addon.view.live import LiveColorizer
+from ..scene import polls
+from ..scene.editors import redraw_editors
+from ..scene.images import put_pixels, stored_pixels
+from ..scene.properties import COLORIZE_NAMES, scene_settings
+from ..scene.scan_object import own_image, scan_reader, show_like_reflectance
+from ..scene.seed_arrays import seed_arrays
+from ..scene.seed_list import seeds_of
+from . import jobs
+
+PREVIEW = "Live Preview"
+_POLL_S = 0.03
+# Drawing the mesh of a larger scan again takes long on some machines, so it waits for the full result.
+_QUICK_VERTICES = 150_000
+
+
+class _Live:
+    """The scan that is followed."""
+
+    def __init__(self, obj):
+        self.place = _place(obj)
+        self.colorizer = LiveColorizer(scan_reader(obj), prepare=stored_pixels)
+        self.wished = self.kept = None
+
+    def wish(self, obj, settings):
+        """Ask for the colors of the present seeds and settings, if those are not asked for yet."""
+        wanted = _wanted(obj), settings
+        if self.wished != wanted:
+            self.wished, self.kept = wanted, None
+            self.colorizer.wish(seeds_of(obj), settings)
+
+    def settled(self):
+        """Whether the newest result is there in full."""
+        return self.kept is not None
+
+
+def _wanted(obj):
+    """A value that is the same as long as the object's seeds with a color are; which are selected does not matter."""
+    seeds = seed_arrays(obj)
+    columns = (
+        seeds.rows,
+        seeds.cols,
+        seeds.colors,
+        seeds.photo_xy,
+        seeds.photo_names,
+        seeds.found_by,
+        seeds.confidence,
+    )
+    return hash(tuple(column[seeds.has_color].tobytes() for column in columns))
+
+
+_live = None
+# (screen, number of the area in it, what it colored surfaces by before)
+_switched = []
+_message = ""
+
+
+def message():
+    """Return what keeps the preview from being shown; empty if nothing does."""
+    return _message
+
+
+def finished(obj, settings):
+    """Return the Colorization of the object's present seeds by these settings if the preview has it, else None."""
+    if _live is None or _live.place != _place(obj) or _live.wished != (_wanted(obj), settings):
+        return None
+    return _live.kept
+
+
+def redraw_seeds(obj):
+    """Have the editors drawn that show the object's seeds; those of a large mesh with the preview that will follow."""
+    follows = bpy.context.window_manager.reflcolor.live_update and len(obj.data.vertices) > _QUICK_VERTICES
+    redraw_editors({"IMAGE_EDITOR"} if follows else {"IMAGE_EDITOR", "VIEW_3D"})
+
+
+def switch(on):
+    """Begin to follow the seeds, or end it and show again what was there."""
+    if on and not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick, first_interval=0)
+    if not on:
+        _end()
+        redraw_editors()
+
+
+def _tick():
+    """Look for a change, and for a result; quick, because the window waits for it."""
+    window = bpy.context.window_manager
+    if not window.reflcolor.live_update:
+        return None
+    obj = polls.scan_object(bpy.context)
+    if obj is not None and jobs.running() is None:
+        _follow(obj)
+    return _POLL_S
+
+
+def _follow(obj):
+    global _live, _message
+    try:
+        if _live is None or _live.place != _place(obj):
+            _end()
+            _live = _Live(obj)
+        _live.wish(obj, scene_settings(bpy.context.scene, COLORIZE_NAMES))
+    except ReflcolorError as error:
+        _message = str(error)
+        return
+    result = _live.colorizer.take()
+    if result is None:
+        return
+    error, _message = result.error, ""
+    if isinstance(error, ReflcolorError | MemoryError):
+        _message = str(error) or "not enough memory"
+        redraw_editors()
+    elif error is not None:
+        raise error
+    else:
+        if result.number == _live.colorizer.latest:
+            _live.kept = result.colorization
+        _show(obj, result)
+
+
+def _place(obj):
+    return obj.name, obj.data.name, len(obj.data.vertices), obj.reflcolor.rows, obj.reflcolor.cols
+
+
+def _show(obj, result):
+    state = obj.reflcolor
+    size = state.cols, state.rows
+    state.preview_image = put_pixels(own_image(obj, "preview_image"), f"{obj.name} {PREVIEW}", result.prepared, size)
+    show_like_reflectance(obj, state.preview_image)
+    _lay_on_mesh(obj)
+    redraw_editors(
+        {"IMAGE_EDITOR"}
+        if result.colorization is None and len(obj.data.vertices) > _QUICK_VERTICES
+        else {"IMAGE_EDITOR", "VIEW_3D"}
+    )
+
+
+def _lay_on_mesh(obj):
+    """Have Solid shading show the preview on the object: by an image node that nothing else uses."""
+    material = obj.active_material
+    if material is None or material.node_tree is None:
+        return
+    nodes = material.node_tree.nodes
+    node = nodes.get(PREVIEW)
+    if node is None:
+        node = nodes.new("ShaderNodeTexImage")
+        node.name = node.label = PREVIEW
+    if node.image != obj.reflcolor.preview_image:
+        node.image = obj.reflcolor.preview_image
+    if nodes.active != node:
+        nodes.active = node
+    if _switched:
+        return
+    for screen, index, space in _solid_views():
+        if space.shading.color_type in {"VERTEX", "MATERIAL"}:
+            _switched.append((screen.name, index, space.shading.color_type))
+            space.shading.color_type = "TEXTURE"
+
+
+def _solid_views():
+    return [
+        (screen, index, area.spaces.active)
+        for screen in bpy.data.screens
+        for index, area in enumerate(screen.areas)
+        if area.type == "VIEW_3D"
+    ]
+
+
+def _end():
+    """Stop following, and take the preview off."""
+    global _live, _message
+    if _live is not None:
+        _live.colorizer.stop(wait=False)
+    _live, _message = None, ""
+    _take_off()
+
+
+def _take_off():
+    before = {(screen, index): color_type for screen, index, color_type in _switched}
+    _switched.clear()
+    for screen, index, space in _solid_views():
+        if (screen.name, index) in before and space.shading.color_type == "TEXTURE":
+            space.shading.color_type = before[screen.name, index]
+    for material in bpy.data.materials:
+        if material.node_tree is not None and PREVIEW in material.node_tree.nodes:
+            material.node_tree.nodes.remove(material.node_tree.nodes[PREVIEW])
+    for obj in bpy.data.objects:
+        image = obj.reflcolor.preview_image
+        if image is not None:
+            obj.reflcolor.preview_image = None
+            bpy.data.images.remove(image)
+
+
+@persistent
+def _file_was_loaded(_path):
+    bpy.context.window_manager.reflcolor.live_update = False
+
+
+@persistent
+def _file_is_saved(_path):
+    """A saved file holds the colors that the scan has; the preview is laid on again by the next result."""
+    if _live is not None:
+        _end()
+
+
+@persistent
+def _something_will_be_undone(_scene):
+    """Take the preview off: Blender keeps what no step changed, and with it pointers to an image that is in none."""
+    _take_off()
+
+
+@persistent
+def _something_was_undone(_scene):
+    """An earlier state may have had the preview on; where it is followed, it is laid on anew."""
+    _take_off()
+    if _live is not None:
+        _live.wished = None
+
+
+_HANDLERS = (
+    (bpy.app.handlers.load_post, _file_was_loaded),
+    (bpy.app.handlers.save_pre, _file_is_saved),
+    (bpy.app.handlers.undo_pre, _something_will_be_undone),
+    (bpy.app.handlers.redo_pre, _something_will_be_undone),
+    (bpy.app.handlers.undo_post, _something_was_undone),
+    (bpy.app.handlers.redo_post, _something_was_undone),
+)
+_added = []
+
+
+def register():
+    """Watch for files that are loaded and saved, and for what is undone."""
+    for handlers, function in _HANDLERS:
+        handlers.append(function)
+        _added.append((handlers, function))
+
+
+def unregister():
+    """End all of it."""
+    if bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.unregister(_tick)
+    _end()
+    while _added:
+        handlers, function = _added.pop()
+        handlers.remove(function)

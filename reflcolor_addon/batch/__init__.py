@@ -1,0 +1,1 @@
+"""From files to files: plan, check, run, write."""

@@ -1,0 +1,336 @@
+"""Method 1 of the paper, holding what a scan has in common from one colorization to the next."""
+
+import os
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import replace
+
+import numpy as np
+
+from ..errors import Cancelled
+from ..files.memory import require_memory
+from ..geodesic.blending import left_out
+from ..geodesic.engines import engine_for
+from ..geodesic.exact import HeldFields, add_fields, awaited
+from ..geodesic.graph import PixelGraph
+from ..scan.normalization import normalize
+from ..settings import Settings
+from . import colorspaces
+from .colorization import Colorization
+from .kriging import MAX_SEEDS, Kriging, pixel_features, share
+from .smoothing import smooth
+from .tone import tone_to_try, toned
+
+# The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
+_HALF_CONFIDENCE = 64.0
+# The same, in 8-bit levels, for the difference between eq. 1 and kriging and for what no color can show.
+_HALF_CONFIDENCE_LEVELS = 5.0
+# nearest="auto": exact up to this many pixels times seeds, about 2 s on two threads. A fixed number, not a measured
+# time: the same input must give the same result everywhere.
+AUTO_EXACT_PIXEL_SEEDS = 1.5e8
+# Otherwise the first of these for which 999 of 1,000 pixels lie within this many 8-bit levels of the exact result.
+AUTO_NEAREST = (8, 16, 32)
+AUTO_TOLERANCE_LEVELS = 4.0
+_POLL_S = 0.02
+_DEFAULT_MEMORY = 1 << 30
+# Of the progress; the colors are written after both.
+_PROPAGATED, _COLORED = 0.75, 0.95
+# Between two looks at the wish to cancel.
+_PAINTED_PIXELS = 1 << 19
+_KRIGING_BYTES = 100
+"""What kriging holds at its worst moment, per pixel."""
+
+
+class Colorizer:
+    """Colorizes one scan again and again; what did not change is not computed anew.
+
+    It holds the scan's graph, the geodesic fields of its seeds, the sums of eq. 1, and what came of them last. A seed
+    that is added costs one field; one that is moved, one field and a new sum; one that is removed or recolored, a new
+    sum; another tone, none of these. The result has the same bits as one computed at once.
+
+    Parameters
+    ----------
+    scan : Scan
+    settings : Settings, optional
+        The paper's by default.
+    memory : int
+        Bytes that fields may take; the least recently used ones are dropped and computed again when needed. With 0,
+        nothing else is kept, either.
+    threads : int, optional
+        By default one per processor. The number changes no bit of a result.
+
+    Raises
+    ------
+    ReflcolorError
+        If the memory that is free will not do.
+    """
+
+    def __init__(self, scan, settings=None, *, memory=_DEFAULT_MEMORY, threads=None):
+        self.scan = scan
+        self.threads = threads or os.cpu_count() or 1
+        self._fields = HeldFields(memory)
+        self._luminance, reflectance_limits = normalize(scan.reflectance, scan.valid)
+        self._median = float(np.median(self._luminance[scan.valid])) if scan.valid.any() else 0.0
+        self._range_image, range_limits = normalize(scan.range, scan.valid)
+        self._normalization = {"reflectance": reflectance_limits, "range": range_limits}
+        self.settings = self._spread = None
+        self._use(settings or Settings())
+
+    @property
+    def held_bytes(self):
+        """Bytes that the fields take now."""
+        return self._fields.nbytes
+
+    def colorize(self, seeds, settings=None, *, progress=None, cancelled=None):
+        """Colorize the scan; parameters, result and errors are those of ``colorize``."""
+        progress = progress or (lambda fraction, text: None)
+        cancelled = cancelled or (lambda: False)
+        seeds, warnings = seeds.placed_on(self.scan)
+        self._use(settings or self.settings)
+        self._require_memory(len(seeds))
+        progress(0.0, "Preparing the scan")
+        pixels = np.ravel_multi_index((seeds.rows, seeds.cols), self.scan.shape)
+        chrominance = colorspaces.chrominance(seeds.rgb, self.settings.color_space).astype(np.float32)
+        kriging = self.settings.kriging
+        if kriging and len(seeds) > MAX_SEEDS:
+            kriging = 0.0
+            warnings.append(f"kriging is left out: it takes {MAX_SEEDS} seeds at most, found {len(seeds)}")
+        wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), replace(self.settings, tone=1.0)
+        if self._spread is None or self._spread[0] != wanted:
+            self._spread = None
+            self._spread = wanted, self._spread_from(pixels, chrominance, kriging, progress, cancelled)
+        chroma, confidence, nearest_seed, method = self._spread[1]
+        if not self._fields.limit:
+            self._spread = None
+        reached = nearest_seed >= 0
+        progress(_COLORED, "Writing the colors")
+        unreached = int(np.count_nonzero(self.scan.valid & ~reached))
+        if unreached:
+            warnings.append(f"{unreached} pixels are cut off from every seed and keep their gray; add seeds there")
+        tone = tone_to_try(self._median, self.settings.tone)
+        if tone is not None:
+            # First, because a list of warnings may be cut.
+            warnings.insert(0, f"the colors are dark because most of the reflectance is; try tone {tone:g}")
+        rgb, lost = self._paint(chroma, reached, cancelled)
+        progress(1.0, "Colorized")
+        return Colorization(
+            rgb=rgb,
+            confidence=(confidence / (1 + lost / _HALF_CONFIDENCE_LEVELS)).astype(np.float32),
+            nearest_seed=nearest_seed.copy(),
+            seeds=seeds,
+            warnings=tuple(warnings),
+            normalization=self._normalization,
+            method=dict(method),
+        )
+
+    def _spread_from(self, pixels, chrominance, kriging, progress, cancelled):
+        """Return what does not depend on the tone: chrominance, confidence and nearest seed of every pixel, and how."""
+        propagated = _PROPAGATED if kriging else _COLORED
+        if kriging and self._features is None:
+            # Found while the paths are; after a cancellation nobody waits for it.
+            pool = ThreadPoolExecutor(1, "reflcolor")
+            self._features = pool.submit(pixel_features, self.scan, self._smoothed)
+            pool.shutdown(wait=False)
+        mean, method, near = self._propagate(
+            pixels, chrominance, lambda done, text: progress(propagated * done, text), cancelled
+        )
+        reached = np.isfinite(mean.least)
+        chroma, confidence = mean.chroma, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
+        if kriging:
+            path_residuals = chrominance - left_out(*near, chrominance, self.settings.alpha)
+            estimate, kriging = self._krige(pixels, chrominance, path_residuals, progress, cancelled)
+            method["kriging"] = kriging
+            levels = np.hypot(*(estimate - chroma)) * colorspaces.levels_per_unit(self.settings.color_space)
+            confidence /= 1 + levels / _HALF_CONFIDENCE_LEVELS
+            chroma = (1 - kriging) * chroma + kriging * estimate
+        return np.moveaxis(chroma, 0, -1), confidence, mean.nearest_seed, method
+
+    def _use(self, settings):
+        """Take over settings; what they make void is dropped."""
+        before, self.settings = self.settings, settings
+        if before is None or before.smoothing != settings.smoothing:
+            self._smoothed = smooth(self._luminance, self.scan.valid, settings.smoothing, wrap=self.scan.full_turn)
+            self._features = None
+        elif (before.beta, before.neighbors) == (settings.beta, settings.neighbors):
+            return
+        self._engine = engine_for(
+            PixelGraph(
+                luminance=self._smoothed,
+                range_image=self._range_image,
+                valid=self.scan.valid,
+                beta=settings.beta,
+                neighbors=settings.neighbors,
+                wrap=self.scan.full_turn,
+            )
+        )
+        self._fields.clear()
+        self._forget_sums()
+
+    def _forget_sums(self):
+        self._blend, self._blended = None, []
+
+    def _require_memory(self, seeds):
+        always, per_thread, per_nearest = self._engine.memory
+        nearest = self.settings.nearest
+        labels = max(AUTO_NEAREST) if nearest == "auto" and not self._is_small(seeds) else nearest
+        per_pixel = always + (
+            per_nearest * min(labels, seeds) if isinstance(labels, int) else per_thread * self.threads
+        )
+        per_pixel += _KRIGING_BYTES if self.settings.kriging else 0
+        rows, columns = self.scan.shape
+        require_memory(per_pixel * rows * columns, f"{self.scan.name}: colorizing {rows} rows x {columns} columns")
+
+    def _is_small(self, seeds):
+        return seeds * self.scan.valid.size <= AUTO_EXACT_PIXEL_SEEDS or seeds <= AUTO_NEAREST[0]
+
+    def _propagate(self, pixels, chrominance, progress, cancelled):
+        """Return the mean of eq. 1, how it was come by, and what lies near the seeds (see the engine's ``nearest``)."""
+        nearest = self.settings.nearest
+        method = {"engine": self._engine.name, "note": self._engine.note, "nearest": None}
+        if nearest is None or (nearest == "auto" and (self._engine.note or self._is_small(len(pixels)))):
+            mean, near = self._exact(pixels, chrominance, progress, cancelled)
+            return mean, method, near
+        for k in AUTO_NEAREST if nearest == "auto" else (nearest,):
+            mean, bound, near = self._nearest(pixels, chrominance, min(k, len(pixels)), progress, cancelled)
+            levels = colorspaces.levels_per_unit(self.settings.color_space)
+            largest, percentile = self._bound_levels(bound, levels)
+            method |= {"nearest": k, "bound_levels": {"max": largest, "p99.9": percentile}}
+            if percentile <= AUTO_TOLERANCE_LEVELS:
+                break
+        return mean, method, near
+
+    def _bound_levels(self, bound, levels):
+        inside = bound[self.scan.valid]
+        return round(float(inside.max()) * levels, 3), round(float(np.percentile(inside, 99.9)) * levels, 3)
+
+    def _exact(self, pixels, chrominance, progress, cancelled):
+        """Eq. 1 over all seeds, in their order; fields that are not held are computed in threads, a few ahead."""
+        wanted = list(zip(pixels.tolist(), map(tuple, chrominance.tolist()), strict=True))
+        done, near = len(self._blended), None
+        if self.settings.kriging and pixels.size <= MAX_SEEDS:
+            # Kriging asks how far the seeds are from each other, so every field is seen again.
+            self._forget_sums()
+            near = np.empty((pixels.size,) * 2, np.float32), np.broadcast_to(np.arange(pixels.size), (pixels.size,) * 2)
+        if self._blend is None or self._alpha != self.settings.alpha or self._blended != wanted[:done]:
+            self._forget_sums()
+            self._alpha, done = self.settings.alpha, 0
+            self._blend = self._engine.blend(self._alpha)
+
+        held = done + sum(self._fields.get(pixel) is not None for pixel, _ in wanted[done:])
+        ahead, inside = done, np.count_nonzero(self.scan.valid)
+
+        def working(settled=0):
+            nonlocal ahead
+            # Pixels are settled a little more than once: they never tell of more than the threads are at.
+            most = min(len(self._blended) + self.threads, len(wanted))
+            ahead = max(ahead, len(self._blended), min(held + settled / inside, most))
+            progress(ahead / len(wanted), f"Seed {len(self._blended)} of {len(wanted)}")
+
+        def added(index, field):
+            self._blended.append(wanted[done + index])
+            if near is not None:
+                near[0][:, done + index] = field[np.unravel_index(pixels, self.scan.shape)]
+            working()
+
+        how = {"threads": self.threads, "held": self._fields}
+        told = {"added": added, "working": working, "cancelled": cancelled}
+        try:
+            add_fields(self._engine, self._blend, wanted[done:], **how, **told)
+        except BaseException:
+            self._forget_sums()
+            raise
+        mean = self._blend.mean(keep=self._fields.limit > 0)
+        if not self._fields.limit:
+            self._forget_sums()
+        return mean, near
+
+    def _nearest(self, pixels, chrominance, k, progress, cancelled):
+        control = self._engine.control()
+        alpha = self.settings.alpha
+
+        def tell():
+            progress(min(1, control.done / len(pixels)), f"{k} nearest of {len(pixels)} seeds")
+
+        with ThreadPoolExecutor(1, "reflcolor") as pool:
+            later = pool.submit(self._engine.nearest, pixels, chrominance, alpha, k, control)
+            try:
+                return awaited(later, control, tell, cancelled)
+            except BaseException:
+                control.cancel()
+                raise
+
+    def _paint(self, chroma, reached, cancelled):
+        """Return the (H, W, 3) uint8 colors and the (H, W) float32 levels of chrominance that they lack."""
+        rgb, lost = np.empty((*self.scan.shape, 3), np.uint8), np.empty(self.scan.shape, np.float32)
+        rows = max(1, _PAINTED_PIXELS // rgb.shape[1])
+        for top in range(0, len(rgb), rows):
+            if cancelled():
+                raise Cancelled
+            strip = slice(top, top + rows)
+            luminance = toned(self._luminance[strip], self.settings.tone)
+            rgb[strip] = colorspaces.merge(luminance, chroma[strip], self.settings.color_space)
+            lost[strip] = colorspaces.lost_levels(rgb[strip], chroma[strip], self.settings.color_space)
+            rgb[strip][~reached[strip]] = np.rint(luminance[~reached[strip]])[:, None]
+        return rgb, lost
+
+    def _krige(self, pixels, chrominance, path_residuals, progress, cancelled):
+        """Return the (2, H, W) float32 chrominance estimated by kriging, 0 where not valid, and its share."""
+        progress(_PROPAGATED, "Estimating by kriging")
+        while not wait([self._features], _POLL_S).done:
+            if cancelled():
+                raise Cancelled
+        if self._features.exception() is not None:
+            failed, self._features = self._features, None
+            failed.result()
+        features = self._features.result()
+        kriging = Kriging(features[pixels], chrominance)
+        estimate = np.zeros((self.scan.valid.size, 2), np.float32)
+        inside = np.flatnonzero(self.scan.valid)
+
+        def fill(chunk):
+            estimate[inside[chunk]] = kriging.estimate(features[inside[chunk]])
+
+        chunks = kriging.chunks(inside.size)
+        with ThreadPoolExecutor(self.threads, "reflcolor") as pool:
+            running = [pool.submit(fill, chunk) for chunk in chunks]
+            try:
+                for done, chunk in enumerate(running, 1):
+                    if cancelled():
+                        raise Cancelled
+                    chunk.result()
+                    progress(_PROPAGATED + (_COLORED - _PROPAGATED) * done / len(chunks), "Estimating by kriging")
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+        estimate = np.moveaxis(estimate.reshape(*self.scan.shape, 2), -1, 0)
+        return estimate, share(kriging.residuals, path_residuals, self.settings.kriging)
+
+
+def colorize(scan, seeds, settings=None, *, progress=None, cancelled=None):
+    """Colorize a scan from seeds: eq. 1, 2, 5 and 6.
+
+    Parameters
+    ----------
+    scan : Scan
+    seeds : Seeds
+    settings : Settings, optional
+        The paper's by default.
+    progress : callable, optional
+        Called as ``progress(fraction, text)`` with a fraction of 0 to 1.
+    cancelled : callable, optional
+        Asked now and then; when it returns True, the work ends.
+
+    Returns
+    -------
+    Colorization
+
+    Raises
+    ------
+    SeedsError
+        If there are no seeds, or one is outside the grid.
+    ReflcolorError
+        If the memory that is free will not do.
+    Cancelled
+        If ``cancelled()`` returned True.
+    """
+    # Nothing is colorized a second time, so no field needs to be kept.
+    return Colorizer(scan, settings, memory=0).colorize(seeds, progress=progress, cancelled=cancelled)

@@ -1,0 +1,164 @@
+"""Chrominance estimated by kriging: regression on what the scan knows of every pixel.
+
+Surfaces of one material tend to have one color. Two pixels are likely to be of one material if they have a like
+reflectance and a like normal, and lie close together; a path between them, as the geodesic distance asks for, is not
+needed. Ordinary kriging (Matheron 1963; Gaussian process regression with a constant mean) takes
+
+    k(i, j) = exp(-|f_i - f_j|)
+
+as the covariance of chrominance, f being the features below, and estimates m + k(i, .) (K + N)^-1 (c - m). N is a
+diagonal of nuggets: the variance of a seed's color about that of its surroundings, as a share of the whole variance.
+The seeds themselves tell how large it is, because the error of estimating each from all others has a closed form.
+"""
+
+import numpy as np
+
+from ..scan.normals import surface_normals
+
+# What makes two pixels unlike: each of these is one unit of distance between their features.
+SCALES = {
+    # Of the scan's angular extent: the side of a square with the same spread of directions.
+    "direction": 0.5,
+    # Of the range 0..255.
+    "luminance": 0.5,
+    # Natural logarithm: a factor of 2 in range.
+    "log_range": 0.7,
+    # Opposite walls are 0.5 apart.
+    "normal": 4.0,
+}
+FEATURES = 8
+NUGGETS = (0.02, 0.04, 0.08, 0.16, 0.32)
+MAX_SEEDS = 8000
+"""The matrix of their covariances takes 0.5 GB."""
+
+# A seed whose error is this many times the median is noisy; its nugget grows with the excess, to the limit.
+_OUTLIER = 4.0
+_OUTLIER_GAIN, _OUTLIER_LIMIT = 0.1, 5.0
+# What is expected of the share of kriging counts as much as this many seeds.
+_SHARE_SEEDS = 30
+_SHARES = np.linspace(0, 1, 21)
+# Seeds are left out one by one in groups of at most this many: the cost grows with the cube.
+_GROUP = 1000
+# Of the matrix of covariances between pixels and seeds that is held at once.
+_CHUNK_VALUES = 1 << 21
+
+
+def pixel_features(scan, luminance):
+    """Return the (H * W, 8) float32 features of all pixels, in units of likeness; zeros where not valid.
+
+    Parameters
+    ----------
+    scan : Scan
+    luminance : (H, W) float32
+        Normalized reflectance, 0..255.
+    """
+    valid = scan.valid
+    distance = np.maximum(scan.range, np.finfo(np.float32).tiny)
+    features = np.empty((*scan.shape, FEATURES), np.float32)
+    direction = np.divide(scan.points, distance[..., None], out=features[..., 0:3], casting="same_kind")
+    # Of unit vectors; and a square of side s has a mean squared distance from its center of s^2 / 6.
+    variance = 1 - np.sum(direction[valid].mean(axis=0, dtype=np.float64) ** 2)
+    direction /= max(np.sqrt(6 * max(variance, 0)), 1e-6) * SCALES["direction"]
+    features[..., 3] = luminance / (255 * SCALES["luminance"])
+    features[..., 4] = np.log(distance) / SCALES["log_range"]
+    features[..., 5:8] = surface_normals(scan.points, valid, wrap=scan.full_turn) / SCALES["normal"]
+    features[~valid] = 0
+    return features.reshape(-1, FEATURES)
+
+
+class Kriging:
+    """Fitted to seeds; estimates the chrominance of pixels.
+
+    Parameters
+    ----------
+    features : (S, 8) float
+        Of the seeds; at most `MAX_SEEDS`.
+    colors : (S, 2) float
+        Their chrominance.
+    """
+
+    def __init__(self, features, colors):
+        self._features = np.asarray(features, np.float64)
+        colors = np.asarray(colors, np.float64)
+        covariance = _covariance(self._features, self._features)
+        groups = _groups(len(colors))
+        nuggets = _nuggets(covariance, colors, groups)
+        weights = np.linalg.solve(covariance + np.diag(nuggets), np.column_stack([np.ones(len(colors)), colors]))
+        self._mean = weights[:, 1:].sum(axis=0) / weights[:, 0].sum()
+        self._weights = np.ascontiguousarray((weights[:, 1:] - weights[:, :1] * self._mean).T)
+        self.residuals = np.empty_like(colors)
+        """(S, 2): color of each seed, less what is estimated from the others."""
+        for group in groups:
+            self.residuals[group], _ = _residuals(covariance[np.ix_(group, group)], colors[group], nuggets[group])
+
+    def chunks(self, count):
+        """Return slices that part ``count`` pixels so that each part fits well into memory."""
+        step = max(1, _CHUNK_VALUES // len(self._features))
+        return [slice(start, min(count, start + step)) for start in range(0, count, step)]
+
+    def estimate(self, features):
+        """Return the (N, 2) float64 chrominance of pixels with (N, 8) features."""
+        covariance = _covariance(np.asarray(features, np.float64), self._features)
+        return np.einsum("ns,cs->nc", covariance, self._weights) + self._mean
+
+
+def _covariance(one, other):
+    """exp(-|f_i - f_j|) for (N, F) and (S, F) features: (N, S)."""
+    # Not by BLAS, whose own threads would contend with those that estimate chunks.
+    squared = np.einsum("nf,fs->ns", one, np.ascontiguousarray(-2 * other.T))
+    squared += np.einsum("ij,ij->i", one, one)[:, None]
+    squared += np.einsum("ij,ij->i", other, other)
+    # The difference of large numbers may fall below zero.
+    np.maximum(squared, 0, out=squared)
+    np.sqrt(squared, out=squared)
+    np.negative(squared, out=squared)
+    return np.exp(squared, out=squared)
+
+
+def share(kriging_residuals, path_residuals, expected):
+    """Return the share of kriging, the rest being eq. 1, that would have estimated the left-out seeds best.
+
+    Parameters
+    ----------
+    kriging_residuals, path_residuals : (S, 2) float
+        Color of each seed, less the estimate of either from the others.
+    expected : float, 0 to 1
+        What the share is drawn to, the more so the fewer seeds there are.
+    """
+    errors = [np.linalg.norm(s * kriging_residuals + (1 - s) * path_residuals, axis=1).sum() for s in _SHARES]
+    least = min(errors)
+    if least == 0:
+        return expected
+    count = len(kriging_residuals)
+    cost = count * np.array(errors) / least + _SHARE_SEEDS * (_SHARES - expected) ** 2
+    return float(_SHARES[np.argmin(cost)])
+
+
+def _groups(count):
+    """Index arrays that part the seeds evenly, each small enough to leave its seeds out one by one."""
+    number = -(-count // _GROUP)
+    return [np.arange(first, count, number) for first in range(number)]
+
+
+def _nuggets(covariance, colors, groups):
+    """(S,) nuggets: the one of NUGGETS that foretells left-out seeds best, more for seeds that fit badly."""
+    parts = [(covariance[np.ix_(group, group)], colors[group]) for group in groups]
+    trials = [[_residuals(*part, np.full(len(part[1]), nugget)) for part in parts] for nugget in NUGGETS]
+    totals = [sum(np.linalg.norm(residuals, axis=1).sum() for residuals, _ in trial) for trial in trials]
+    best = int(np.argmin(totals))
+    nuggets = np.empty(len(colors))
+    for group, (residuals, precision) in zip(groups, trials[best], strict=True):
+        # Relative to what the covariance alone lets expect.
+        error = np.linalg.norm(residuals, axis=1) * np.sqrt(precision)
+        median = np.median(error)
+        excess = (error / median / _OUTLIER) ** 2 - 1 if median > 0 else np.zeros(len(group))
+        nuggets[group] = NUGGETS[best] + np.clip(_OUTLIER_GAIN * excess, 0, _OUTLIER_LIMIT)
+    return nuggets
+
+
+def _residuals(covariance, colors, nuggets):
+    """(S, 2) colors less what is estimated from the other seeds, and (S,) reciprocal variances of that."""
+    inverse = np.linalg.inv(covariance + np.diag(nuggets))
+    mean = (inverse @ colors).sum(axis=0) / inverse.sum()
+    precision = np.diag(inverse)
+    return inverse @ (colors - mean) / precision[:, None], precision

@@ -1,0 +1,156 @@
+"""OpenEXR pictures, read with numpy and zlib: renderers and depth tools write them, and OpenCV may come without."""
+
+import struct
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ImageError
+
+_MAGIC = b"\x76\x2f\x31\x01"
+_TILED, _DEEP, _MULTIPART = 0x200, 0x800, 0x1000
+_TYPES = (np.dtype("<u4"), np.dtype("<f2"), np.dtype("<f4"))
+_COMPRESSIONS = ("NONE", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB")
+_ROWS_PER_CHUNK = {"NONE": 1, "RLE": 1, "ZIPS": 1, "ZIP": 16}
+_MAX_PIXELS = 2**30
+
+
+def is_exr(start):
+    """True where the first bytes of a file are those of an EXR."""
+    return bytes(start[:4]) == _MAGIC
+
+
+def read_exr_channels(path):
+    """Read every channel of a single-part, scan-line EXR.
+
+    Parameters
+    ----------
+    path : path-like
+        Written without compression, or with RLE, ZIPS or ZIP.
+
+    Returns
+    -------
+    dict of str to (H, W) float32
+        By full name, for example ``"R"`` or ``"ViewLayer.Depth.Z"``, row 0 at the top. Half floats become float32.
+
+    Raises
+    ------
+    ImageError
+        If the file cannot be read, is no EXR, is of a kind that is not read, or is cut short.
+    """
+    path = Path(path)
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise ImageError(f"{path}: cannot be read ({error.strerror or error})") from None
+    if not is_exr(data):
+        raise ImageError(f"{path.name}: not an EXR picture by its first bytes")
+    try:
+        return _channels(data, path)
+    except (KeyError, IndexError, struct.error, zlib.error, ValueError, OverflowError) as error:
+        if isinstance(error, ImageError):
+            raise
+        raise ImageError(f"{path.name}: not a whole EXR picture: it is damaged or cut short") from None
+    except MemoryError:
+        raise ImageError(f"{path.name}: does not fit into memory") from None
+
+
+def _channels(data, path):
+    flags, attributes, at = _header(data)
+    for flag, kind in ((_TILED, "tiled"), (_DEEP, "deep"), (_MULTIPART, "in several parts")):
+        if flags & flag:
+            raise ImageError(f"{path.name}: is {kind}, expected an EXR of one part in scan lines")
+    number = attributes["compression"][0]
+    compression = _COMPRESSIONS[number] if number < len(_COMPRESSIONS) else f"number {number}"
+    if compression not in _ROWS_PER_CHUNK:
+        raise ImageError(f"{path.name}: compressed with {compression}, expected ZIP or none: save it so")
+    left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    if width < 1 or height < 1 or width * height > _MAX_PIXELS:
+        raise ImageError(f"{path.name}: claims to be {width} x {height} pixels, expected 1 to {_MAX_PIXELS:,} in all")
+    listed = _channel_list(attributes["channels"])
+    per_chunk = _ROWS_PER_CHUNK[compression]
+    offsets = np.frombuffer(data, "<u8", count=-(-height // per_chunk), offset=at)
+    row_size = width * sum(dtype.itemsize for _, dtype in listed)
+
+    # A compressed picture is at most about a thousand times its file; what claims more is damaged.
+    if height * row_size > 1100 * len(data):
+        raise ImageError(f"{path.name}: claims to be {width} x {height} pixels, more than the file can hold")
+    channels = {name: np.zeros((height, width), np.float32) for name, _ in listed}
+    for offset in offsets.tolist():
+        y, size = struct.unpack_from("<ii", data, offset)
+        first = y - top
+        rows = min(per_chunk, height - first)
+        packed = data[offset + 8 : offset + 8 + size]
+        if first < 0 or rows < 1 or size < 0 or len(packed) != size:
+            raise ValueError
+        block = packed if size == rows * row_size else _unpacked(packed, compression, rows * row_size)
+        block = np.frombuffer(block, np.uint8, count=rows * row_size).reshape(rows, row_size)
+        start = 0
+        for name, dtype in listed:
+            end = start + width * dtype.itemsize
+            channels[name][first : first + rows] = np.ascontiguousarray(block[:, start:end]).view(dtype)
+            start = end
+    return channels
+
+
+def _header(data):
+    """Flags of the version field, attributes by name, and the offset of the table after the header."""
+    (version,) = struct.unpack_from("<I", data, 4)
+    attributes, at = {}, 8
+    while data[at] != 0:
+        name, at = _text(data, at)
+        _kind, at = _text(data, at)
+        (size,) = struct.unpack_from("<i", data, at)
+        if size < 0:
+            raise ValueError
+        attributes[name] = data[at + 4 : at + 4 + size]
+        at += 4 + size
+    return version, attributes, at + 1
+
+
+def _channel_list(listing):
+    channels, at = [], 0
+    while listing[at] != 0:
+        name, at = _text(listing, at)
+        kind, _linear, x_sampling, y_sampling = struct.unpack_from("<4i", listing, at)
+        if (x_sampling, y_sampling) != (1, 1):
+            raise ImageError(f"channel {name} of an EXR is subsampled, expected a value for every pixel")
+        channels.append((name, _TYPES[kind]))
+        at += 16
+    return channels
+
+
+def _text(data, at):
+    end = data.index(b"\0", at)
+    return data[at:end].decode("utf-8", "replace"), end + 1
+
+
+def _unpacked(packed, compression, size):
+    """Undo the packing, then EXR's two filters: a running difference, and bytes of even and odd place set apart."""
+    flat = _run_lengths_undone(packed, size) if compression == "RLE" else zlib.decompressobj().decompress(packed, size)
+    if len(flat) != size:
+        raise ValueError
+    differences = np.frombuffer(flat, np.uint8).copy()
+    differences[1:] -= 128
+    values = np.cumsum(differences, dtype=np.uint8)
+    half = (size + 1) // 2
+    joined = np.empty(size, np.uint8)
+    joined[0::2], joined[1::2] = values[:half], values[half:]
+    return joined.tobytes()
+
+
+def _run_lengths_undone(packed, size):
+    parts, at, done = [], 0, 0
+    while at < len(packed) and done < size:
+        count = struct.unpack_from("<b", packed, at)[0]
+        if count < 0:
+            part = packed[at + 1 : at + 1 - count]
+            at += 1 - count
+        else:
+            part = packed[at + 1 : at + 2] * (count + 1)
+            at += 2
+        parts.append(part)
+        done += len(part)
+    return b"".join(parts)

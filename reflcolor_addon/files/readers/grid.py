@@ -1,0 +1,162 @@
+"""The last step of every reader of scanners' files: from stored grids to a Scan that is upright and clean."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...errors import Cancelled, ScanError
+from ...scan.orientation import infer_flips, turned
+from ...scan.scan import Scan
+
+BYTES_PER_PIXEL = 120
+"""What reading takes at its worst moment: the stored arrays, their upright copies and a mask or two."""
+
+_FARTHEST_RETURN_M = 20_000.0
+"""No terrestrial scanner measures farther; points beyond are geo-referenced."""
+
+_TOO_FAR_M = 1e12
+"""No place on or near a planet."""
+
+_GRAY_SHARE = 0.999
+"""Share of equal channels that makes a color image a gray one; a stray pixel is no color."""
+
+
+class UnusableScan(ScanError):
+    """One scan of a file cannot be used; others of the file may."""
+
+
+def finish_scan(name, source, *, points, reflectance, valid, color, pose, warnings):
+    """Clean the grids that a file holds, turn them upright and make a Scan of them.
+
+    Parameters
+    ----------
+    name : str
+    source : Path
+    points : (H, W, 3) float64
+        In the scanner's frame; exact zeros and numbers that are not finite are no returns.
+    reflectance : (H, W) float32 or None
+        None where the file has none: a gray color image then takes its place.
+    valid : (H, W) bool
+    color : (H, W, 3) uint8 or None
+    pose : (4, 4) float64
+    warnings : list of str
+        What was noticed so far.
+
+    Returns
+    -------
+    Scan
+
+    Raises
+    ------
+    ScanError
+        If no pixel has a return, or nothing in the file can serve as reflectance.
+    """
+    place, warnings = f"scan '{name}'", list(warnings)
+    with np.errstate(invalid="ignore"):
+        measured = valid & (points != 0).any(axis=-1)
+    reflectance, color = _told_apart(reflectance, color, measured, place, warnings, source)
+    usable = measured & (np.abs(points) < _TOO_FAR_M).all(axis=-1) & np.isfinite(reflectance)
+    if lost := np.count_nonzero(measured) - np.count_nonzero(usable):
+        warnings.append(
+            f"{place}: {lost} points hold a number that is not finite or far too large, and were taken as no return"
+        )
+    if not usable.any():
+        raise UnusableScan(f"{source.name}: {place} has no pixel with a return; there is nothing to import")
+
+    nearest = _nearest(points, usable)
+    if nearest > _FARTHEST_RETURN_M:
+        warnings.append(
+            f"{place}: every point is more than {nearest / 1000:,.0f} km from the scanner's origin: the file holds "
+            "world coordinates, so ranges and orientation mean little; rows and columns stay as stored"
+        )
+        turn = turned(False, False)
+    else:
+        flips = infer_flips(points, usable)
+        turn = turned(flips.vertical, flips.horizontal)
+        if not flips.certain:
+            warnings.append(f"{place}: its points do not show which way is up; flip it if it looks wrong")
+    return Scan(
+        name=name,
+        points=points[turn],
+        reflectance=np.where(usable, reflectance, np.float32(0))[turn],
+        valid=usable[turn],
+        color=None if color is None else color[turn],
+        pose=pose,
+        source=source,
+        warnings=tuple(warnings),
+    )
+
+
+def _nearest(points, usable):
+    """Least distance from the scanner, metres."""
+    chosen = points[usable]
+    return np.sqrt(np.einsum("ij,ij->i", chosen, chosen).min())
+
+
+def gray_is_no_color(color, valid):
+    """True where red, green and blue are the same: an intensity stored as a color, or nothing stored at all."""
+    seen = color[valid]
+    equal = (seen[:, 0] == seen[:, 1]) & (seen[:, 0] == seen[:, 2])
+    return np.count_nonzero(equal) >= _GRAY_SHARE * len(seen)
+
+
+def _told_apart(reflectance, color, valid, place, warnings, source):
+    """Some files store the intensity as three equal colors: it is no color, and may be the only intensity there is."""
+    if color is not None and gray_is_no_color(color, valid):
+        gray, color = color[..., 0], None
+        if gray[valid].any():
+            if reflectance is None or (np.ptp(reflectance[valid]) == 0 and np.ptp(gray[valid]) > 0):
+                warnings.append(f"{place}: no intensity but gray colors; they are taken as the intensity")
+                reflectance = gray.astype(np.float32)
+            else:
+                warnings.append(f"{place}: its colors are gray (red = green = blue); taken as a scan without color")
+    if reflectance is None:
+        raise UnusableScan(
+            f"{source.name}: {place} has no intensity, which is what is colorized; export it with intensity"
+        )
+    return reflectance, color
+
+
+def finish_scans(stored, source, *, cancelled=None):
+    """Finish every scan of a file; leave out those that cannot be used, and say so, unless there is no other.
+
+    Parameters
+    ----------
+    stored : list of dict
+        Keyword arguments of `finish_scan` (all but `source`). Emptied on the way, so that memory is given back.
+    source : Path
+    cancelled : callable, optional
+
+    Returns
+    -------
+    list of Scan
+
+    Raises
+    ------
+    ScanError
+        The reason of the first scan, if none can be used.
+    Cancelled
+        If `cancelled()` returned True.
+    """
+    finished, problems, count = [], [], len(stored)
+    while stored:
+        if cancelled and cancelled():
+            raise Cancelled
+        try:
+            finished.append(finish_scan(source=source, **stored.pop(0)))
+        except UnusableScan as error:
+            problems.append(error)
+    return with_problems(finished, problems, count, source)
+
+
+def with_problems(finished, problems, count, source):
+    """The finished scans, the first of which says what the left out ones lack; an error if there are none."""
+    if not problems:
+        return finished
+    reason = str(problems[0]).removeprefix(f"{source.name}: ")
+    if not finished:
+        raise (
+            problems[0] if count == 1 else ScanError(f"{source.name}: none of its {count} scans can be used: {reason}")
+        )
+    left_out = tuple(f"left out: {str(problem).removeprefix(f'{source.name}: ')}" for problem in problems)
+    return [replace(finished[0], warnings=finished[0].warnings + left_out), *finished[1:]]

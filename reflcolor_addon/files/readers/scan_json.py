@@ -1,0 +1,273 @@
+"""The small file beside a range and a reflectance image that says what they are: `garage.scan.json`."""
+
+import json
+import math
+import os
+from dataclasses import dataclass
+from numbers import Real
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import OutputError, ScanError
+from ..atomic import written_atomically
+from .sensor_models import DEPTH, RAY, Pinhole, Spherical
+
+FORMAT = "reflcolor-scan"
+VERSION = 1
+_LARGEST_FILE = 1 << 22
+_TEXTS = ("range", "reflectance", "color", "name", "range_type", "color_order")
+_KEYS = ("format", "version", *_TEXTS, "range_scale", "range_offset", "range_table", "model", "pose")
+_REQUIRED = ("range", "reflectance", "model")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Description:
+    """What a `.scan.json` says, checked.
+
+    Parameters
+    ----------
+    range, reflectance : str
+        Image files, relative to the description.
+    color : str, optional
+    model : Pinhole or Spherical
+    range_scale, range_offset : float
+        Metres = value * scale + offset. The scale may be missing where the image holds metres as floating point.
+    range_table : (N, 2) float64, optional
+        Instead of scale and offset, for images whose values are no linear measure (equalized, companded): values, and
+        the metres that they stand for, linear in between.
+    range_type : "depth" or "ray"
+        Along the viewing axis, or along the ray of the pixel.
+    color_order : "rgb" or "bgr"
+        "bgr" for color images whose red and blue are swapped.
+    name : str, optional
+    pose : (4, 4) float64
+        Scanner to world, column-vector convention.
+    """
+
+    range: str
+    reflectance: str
+    model: Pinhole | Spherical
+    range_type: str
+    color: str | None = None
+    range_scale: float | None = None
+    range_offset: float = 0.0
+    range_table: np.ndarray | None = None
+    color_order: str = "rgb"
+    name: str | None = None
+    pose: np.ndarray | None = None
+
+    def metres(self, values):
+        """(H, W) float64 of (H, W) pixel values."""
+        if self.range_table is not None:
+            return np.interp(values, *self.range_table.T)
+        return values.astype(np.float64) * (self.range_scale or 1.0) + self.range_offset
+
+
+def load_description(path):
+    """Read and check a `.scan.json`.
+
+    Raises
+    ------
+    ScanError
+        One line that names the key.
+    """
+    try:
+        if path.stat().st_size > _LARGEST_FILE:
+            raise ScanError(f"{path.name}: larger than {_LARGEST_FILE >> 20} MB, expected a small JSON description")
+        content = json.loads(path.read_bytes().decode("utf-8-sig"))
+    except OSError as error:
+        raise ScanError(f"{path}: cannot be read ({error.strerror or error})") from None
+    except json.JSONDecodeError as error:
+        raise ScanError(f"{path.name}: line {error.lineno}: not JSON: {error.msg}") from None
+    except (UnicodeDecodeError, RecursionError, ValueError) as error:
+        if isinstance(error, ScanError):
+            raise
+        raise ScanError(f"{path.name}: not a JSON text in UTF-8") from None
+    return check_description(content, path.name)
+
+
+def write_scan_json(
+    path,
+    *,
+    range_image,
+    reflectance_image,
+    model,
+    range_scale=None,
+    color_image=None,
+    range_offset=None,
+    range_table=None,
+    range_type=None,
+    color_order=None,
+    name=None,
+    pose=None,
+):
+    """Write the description of an image pair, so that it opens by one path.
+
+    Parameters
+    ----------
+    path : path-like
+        Ends in ``.scan.json``. The images are named relative to it where they share a drive.
+    range_image, reflectance_image, color_image : path-like
+    model : dict
+        ``{"type": "pinhole", "fx", "fy", "cx", "cy"}`` in pixels, or
+        ``{"type": "spherical", "azimuth_deg": [left, right], "elevation_deg": [bottom, top]}``.
+    range_scale, range_offset, range_table, range_type, color_order, name, pose : optional
+        As in `Description`.
+
+    Raises
+    ------
+    ScanError
+        If the description would not be accepted when read.
+    OutputError
+        If it cannot be written.
+    """
+    path = Path(path)
+    if not path.name.lower().endswith(".scan.json"):
+        raise OutputError(f"{path}: expected a name that ends in .scan.json")
+    content = {
+        "format": FORMAT,
+        "version": VERSION,
+        "name": name,
+        "range": _relative(range_image, path),
+        "range_scale": range_scale,
+        "range_offset": range_offset,
+        "range_table": None if range_table is None else np.asarray(range_table, np.float64).tolist(),
+        "range_type": range_type,
+        "reflectance": _relative(reflectance_image, path),
+        "color": None if color_image is None else _relative(color_image, path),
+        "color_order": color_order,
+        "model": model,
+        "pose": None if pose is None else np.asarray(pose, np.float64).tolist(),
+    }
+    content = {key: value for key, value in content.items() if value is not None}
+    check_description(content, path.name)
+    with written_atomically(path) as temporary:
+        temporary.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", "utf-8")
+
+
+def check_description(content, file_name):
+    """Make a Description of the parsed JSON; ScanError in one line that names the key if it is none."""
+    check = _Check(file_name)
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        raise ScanError(f'{file_name}: expected a JSON object with "format": "{FORMAT}"')
+    if content.get("version") != VERSION or isinstance(content["version"], bool):
+        check.fail("version", f"{VERSION} (this file needs a newer release)", content.get("version"))
+    check.keys(content, _KEYS, _REQUIRED)
+    texts = {key: check.text(key, content[key]) for key in _TEXTS if key in content}
+    model = check.model(content["model"])
+    choices = (RAY,) if isinstance(model, Spherical) else (DEPTH, RAY)
+    texts["range_type"] = check.choice("range_type", texts.get("range_type", model.default_range_type), choices)
+    check.choice("color_order", texts.get("color_order", "rgb"), ("rgb", "bgr"))
+    numbers = {}
+    if "range_table" in content:
+        if "range_scale" in content or "range_offset" in content:
+            raise ScanError(
+                f"{file_name}: range_table: stands instead of range_scale and range_offset; give one or the other"
+            )
+        numbers["range_table"] = check.table(content["range_table"])
+    if "range_scale" in content:
+        numbers["range_scale"] = check.number("range_scale", content["range_scale"], positive=True)
+    if "range_offset" in content:
+        numbers["range_offset"] = check.number("range_offset", content["range_offset"])
+    if "pose" in content:
+        numbers["pose"] = check.pose(content["pose"])
+    return Description(model=model, **texts, **numbers)
+
+
+class _Check:
+    """Values of one JSON file; every failure is one line with the file, the key, what was expected and found."""
+
+    def __init__(self, file_name):
+        self._file_name = file_name
+
+    def fail(self, key, expected, found):
+        shown = json.dumps(found)
+        raise ScanError(
+            f"{self._file_name}: {key}: expected {expected}, found {shown if len(shown) <= 60 else shown[:57] + '...'}"
+        )
+
+    def keys(self, content, known, required, prefix=""):
+        for key in content:
+            if key not in known:
+                raise ScanError(
+                    f"{self._file_name}: {prefix}{key[:40]}: unknown key, expected one of {', '.join(known)}"
+                )
+        for key in required:
+            if key not in content:
+                raise ScanError(f"{self._file_name}: {prefix}{key}: is missing")
+
+    def text(self, key, value):
+        if not isinstance(value, str) or not value.strip() or not value.isprintable():
+            self.fail(key, "a text in one line", value)
+        return value
+
+    def choice(self, key, value, choices):
+        if value not in choices:
+            self.fail(key, " or ".join(f'"{choice}"' for choice in choices), value)
+        return value
+
+    def number(self, key, value, *, positive=False, low=-math.inf, high=math.inf):
+        expected = "a positive number" if positive else "a number"
+        if low > -math.inf:
+            expected += f" from {low:g} to {high:g}"
+        if isinstance(value, bool) or not isinstance(value, Real):
+            self.fail(key, expected, value)
+        number = float(value) if abs(value) < 1e300 else math.inf
+        if not math.isfinite(number) or (positive and number <= 0) or not low <= number <= high:
+            self.fail(key, expected, value)
+        return number
+
+    def span(self, key, value, low, high, widest):
+        if not isinstance(value, list) or len(value) != 2:
+            self.fail(key, "two numbers in degrees", value)
+        first, last = (self.number(key, end, low=low, high=high) for end in value)
+        if not 0 < abs(last - first) <= widest:
+            self.fail(key, f"two different numbers at most {widest} degrees apart", value)
+        return first, last
+
+    def model(self, value):
+        if not isinstance(value, dict):
+            self.fail("model", "an object with a type", value)
+        kind = self.choice("model.type", value.get("type"), ("pinhole", "spherical"))
+        if kind == "spherical":
+            names = ("azimuth_deg", "elevation_deg")
+            self.keys(value, ("type", *names), names, "model.")
+            return Spherical(
+                azimuth_deg=self.span("model.azimuth_deg", value["azimuth_deg"], -720, 720, 360),
+                elevation_deg=self.span("model.elevation_deg", value["elevation_deg"], -90, 90, 180),
+            )
+        names = ("fx", "fy", "cx", "cy")
+        self.keys(value, ("type", *names, "distortion"), names, "model.")
+        lens = value.get("distortion", [])
+        if not isinstance(lens, list) or len(lens) not in (0, 4, 5, 8):
+            self.fail("model.distortion", "4, 5 or 8 numbers: k1, k2, p1, p2, k3, k4, k5, k6", lens)
+        return Pinhole(
+            **{key: self.number(f"model.{key}", value[key], positive=key in ("fx", "fy")) for key in names},
+            distortion=tuple(self.number("model.distortion", number) for number in lens),
+        )
+
+    def table(self, value):
+        expected = "a list of at least two [value, metres] with growing values"
+        if not isinstance(value, list) or len(value) < 2 or not all(isinstance(p, list) and len(p) == 2 for p in value):
+            self.fail("range_table", expected, value)
+        table = np.array([[self.number("range_table", number) for number in pair] for pair in value])
+        if (np.diff(table[:, 0]) <= 0).any():
+            self.fail("range_table", expected, value)
+        return table
+
+    def pose(self, value):
+        if not isinstance(value, list) or [len(row) if isinstance(row, list) else 0 for row in value] != [4] * 4:
+            self.fail("pose", "4 rows of 4 numbers", value)
+        pose = np.array([[self.number("pose", number) for number in row] for row in value])
+        if (pose[3] != [0, 0, 0, 1]).any() or abs(np.linalg.det(pose[:3, :3])) < 1e-9:
+            self.fail("pose", "a matrix that can be inverted, with 0 0 0 1 as its last row", value)
+        return pose
+
+
+def _relative(image, path):
+    """POSIX style relative to the folder of `path`; absolute where there is no such way, between drives."""
+    try:
+        return Path(os.path.relpath(Path(image).absolute(), path.absolute().parent)).as_posix()
+    except ValueError:
+        return Path(image).absolute().as_posix()

@@ -1,0 +1,115 @@
+"""What computes the geodesic distances: the native kernel, or scipy where none loads. Both offer the same four names.
+
+Distances are float32. A path of n steps lies within (n + 7) 2^-24 of its exact length with the kernel; scipy's are
+float64, rounded.
+"""
+
+import numpy as np
+
+from ..errors import Cancelled
+from . import kernel
+from .blending import Blend, blend_nearest
+
+
+def engine_for(graph):
+    """Return the engine for a PixelGraph: the kernel's where it loads."""
+    return NativeEngine(graph) if kernel.available() else ScipyEngine(graph)
+
+
+class NativeEngine:
+    """The C kernel."""
+
+    name = f"reflcolor kernel, interface {kernel.ABI_VERSION}"
+    note = None
+    # What is held at once, in bytes per pixel: always, per thread, and per nearest seed.
+    memory = (90, 20, 10)
+
+    def __init__(self, graph):
+        self.shape = graph.shape
+        self._graph = kernel.Graph(
+            graph.luminance,
+            graph.range_image,
+            graph.valid,
+            beta=graph.beta,
+            neighbors=graph.neighbors,
+            wrap=graph.wrap,
+            step_cost=graph.step_cost,
+        )
+
+    def control(self):
+        """Return what can cancel a running call."""
+        return kernel.Control()
+
+    def field(self, pixel, control):
+        """Return the (H, W) float32 distances to a pixel (row * W + column)."""
+        return kernel.field(self._graph, pixel, control=control)
+
+    def blend(self, alpha):
+        """Return the empty sums of eq. 1."""
+        return kernel.Blend(self.shape, alpha)
+
+    def nearest(self, pixels, colors, alpha, k, control):
+        """Return the mean over the k nearest seeds of every pixel, its (H, W) bound, and those of the seeds' pixels.
+
+        The last are (S, k) distances and (S, k) seeds.
+        """
+        found = kernel.nearest(self._graph, pixels, k, control=control)
+        return *found.blend(colors, alpha, control=control), found.at(pixels)
+
+
+class ScipyEngine:
+    """scipy's Dijkstra and NumPy: slower, and everywhere."""
+
+    name = "scipy.sparse.csgraph.dijkstra"
+    memory = (480, 40, 24)
+
+    def __init__(self, graph):
+        self.shape = graph.shape
+        self.note = f"{kernel.reason() or 'the kernel was not asked for'}; colored by scipy, which is slower"
+        self._graph = graph
+
+    def control(self):
+        """Return what can cancel a running call: between two seeds, for scipy cannot be stopped."""
+        return _Flag()
+
+    def field(self, pixel, control):
+        """Return the (H, W) float32 distances to a pixel (row * W + column)."""
+        from scipy.sparse.csgraph import dijkstra
+
+        control.check()
+        distance = dijkstra(self._graph.matrix, directed=True, indices=int(pixel)).reshape(self.shape)
+        # Without any edge, scipy still reaches the source.
+        return np.where(self._graph.valid, distance, np.inf).astype(np.float32)
+
+    def blend(self, alpha):
+        """Return the empty sums of eq. 1."""
+        return Blend(self.shape, alpha)
+
+    def nearest(self, pixels, colors, alpha, k, control):
+        """Return the mean over the k nearest seeds of every pixel, its (H, W) bound, and those of the seeds' pixels."""
+        distances = np.full((*self.shape, k + 1), np.inf, np.float32)
+        seeds = np.full((*self.shape, k + 1), -1, np.int32)
+        for seed, pixel in enumerate(pixels):
+            distances[..., k], seeds[..., k] = self.field(pixel, control), seed
+            seeds[..., k][np.isinf(distances[..., k])] = -1
+            order = np.argsort(distances, axis=-1, kind="stable")
+            distances, seeds = (np.take_along_axis(array, order, axis=-1) for array in (distances, seeds))
+            control.done = seed + 1
+        distances, seeds = distances[..., :k], seeds[..., :k]
+        place = np.unravel_index(pixels, self.shape)
+        return *blend_nearest(distances, seeds, colors, alpha), (distances[place], seeds[place])
+
+
+class _Flag:
+    """The wish to cancel, and the seeds done."""
+
+    def __init__(self):
+        self.done = 0
+        self.cancelled = False
+
+    def cancel(self):
+        self.cancelled = True
+
+    def check(self):
+        if self.cancelled:
+            raise Cancelled

@@ -1,0 +1,365 @@
+"""The native kernel, where it is there: geodesic fields, nearest seeds, the blending of equation 1.
+
+``available()`` says whether it loaded, ``reason()`` why it did not. Results are the same to the bit on every platform.
+
+    graph = kernel.Graph(luminance, range_image, valid, beta=1.0, neighbors=8, wrap=False, step_cost=0.0)
+    distances = kernel.field(graph, [pixel], control=control)                 # (H, W) float32
+    blend = kernel.Blend((height, width), alpha)                              # one field after another
+    blend.add(distances, (cb, cr))
+    mean = blend.mean()                                                       # a Mean
+
+    found = kernel.nearest(graph, pixels, k, control=control)                 # a Nearest
+    mean, bound = found.blend(colors, alpha, control=control)
+
+A pixel is ``row * width + column``. A ``Control`` carries the wish to cancel into the kernel and its progress out.
+
+Accuracy: a step costs within 7 units of roundoff (u = 2^-24) of equation 6 on the float32 inputs, and a path of n steps
+adds n roundings, so that a distance d lies within (n + 7) u d of the exact one.
+"""
+
+import mmap
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import Cancelled, ReflcolorError
+from .kernel_library import (
+    ABI_VERSION,
+    NO_MEMORY,
+    CGraph,
+    Control,
+    address,
+    available,
+    check,
+    library,
+    pointer_to,
+    reason,
+)
+
+__all__ = [
+    "ABI_VERSION",
+    "MAX_NEAREST",
+    "Blend",
+    "Control",
+    "Graph",
+    "Mean",
+    "Nearest",
+    "available",
+    "field",
+    "nearest",
+    "reason",
+]
+
+MAX_NEAREST = 1024
+
+# Windows has no other anonymous memory; elsewhere, shared is the default and costs more.
+_PRIVATE = {"flags": mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS} if hasattr(mmap, "MAP_PRIVATE") else {}
+# Blended at once: few enough for the sums to stay in the cache, and between two looks at the wish to cancel.
+_PIXELS_AT_ONCE = 1 << 15
+
+
+class Graph:
+    """The pixels' graph, ready for propagation; 8 bytes per pixel, independent of the arrays it was made from.
+
+    Parameters
+    ----------
+    luminance, range_image : (H, W) array
+        Y and D, normalized to 0..255; used as float32.
+    valid : (H, W) bool
+        Other pixels are no nodes; their values may be anything.
+    beta : float
+        Weight of the squared range difference (eq. 6), at least 0.
+    neighbors : {4, 8}
+    wrap : bool
+        Whether the left and the right edge are neighbors.
+    step_cost : float
+        Added to every step (times sqrt(2) on a diagonal); the paper has none.
+    control : Control, optional
+
+    Raises
+    ------
+    ReflcolorError
+        If shapes disagree, or a value at a valid pixel is NaN or infinite, or a parameter is out of its range.
+    """
+
+    def __init__(
+        self, luminance, range_image, valid, *, beta=1.0, neighbors=8, wrap=False, step_cost=0.0, control=None
+    ):
+        arrays = [np.asarray(luminance, np.float32), np.asarray(range_image, np.float32)]
+        arrays.append(np.asarray(valid, bool))
+        self.shape = arrays[2].shape
+        if len(self.shape) != 2 or any(array.shape != self.shape for array in arrays):
+            shapes = ", ".join(str(array.shape) for array in arrays)
+            raise ReflcolorError(f"luminance, range and valid must be images of one size, found {shapes}")
+        if neighbors not in (4, 8):
+            raise ReflcolorError(f"neighbors must be 4 or 8, found {neighbors}")
+        for name, value in (("beta", beta), ("step_cost", step_cost)):
+            if not 0 <= value <= np.finfo(np.float32).max:
+                raise ReflcolorError(f"{name} must be finite and at least 0, found {value}")
+        arrays = [_rows(array) for array in arrays]
+        height, width = self.shape
+        size = library().rc_plane_size(height, width)
+        if size < 0:
+            raise ReflcolorError(f"a graph needs 1 to {2**31 - 1} pixels, found an image of {height} x {width}")
+        self._y, self._d = np.empty(size, np.float32), np.empty(size, np.float32)
+        strided = [part for array in arrays for part in (address(array), array.strides[0] // array.itemsize)]
+        planes = address(self._y), address(self._d)
+        code = library().rc_graph_fill(height, width, wrap, *strided, *planes, pointer_to(control))
+        if code == -3:
+            raise ReflcolorError("luminance and range must be finite at every valid pixel, found NaN or infinity")
+        check(code)
+        self._c = CGraph(height, width, neighbors, wrap, beta, step_cost, address(self._y), address(self._d))
+
+    @property
+    def nbytes(self):
+        """Bytes that the graph holds."""
+        return self._y.nbytes + self._d.nbytes
+
+    def _plane(self, depth=1):
+        """A plane of the kernel with ``depth`` values per pixel, and its inner (H, W, depth) view, both float32."""
+        height, width = self.shape
+        # Straight from the system: page-aligned, so that a pixel's values lie in as few cache lines as they can, and in
+        # small pages, which a propagation fills faster than the huge ones that NumPy asks for.
+        try:
+            plane = np.frombuffer(mmap.mmap(-1, self._y.size * depth * 4, **_PRIVATE), np.float32)
+        except (OSError, OverflowError) as error:
+            raise MemoryError(NO_MEMORY) from error
+        grid = plane[: (height + 2) * (width + 2) * depth].reshape(height + 2, width + 2, depth)[1:-1, 1:-1]
+        return plane, grid
+
+    def _pixels(self, pixels):
+        pixels = np.ascontiguousarray(np.atleast_1d(pixels), np.int64)
+        if pixels.ndim != 1 or not pixels.size:
+            raise ReflcolorError(f"at least one seed pixel is needed, found an array of shape {pixels.shape}")
+        height, width = self.shape
+        outside = (pixels < 0) | (pixels >= height * width)
+        if outside.any():
+            found = int(pixels[outside][0])
+            raise ReflcolorError(f"seed pixel {found} lies outside the image of {height} x {width}")
+        return pixels
+
+
+def _rows(array):
+    """The array with its values adjacent along rows and rows not overlapping."""
+    width = array.shape[1]
+    adjacent = width <= 1 or array.strides[1] == array.itemsize
+    apart = array.strides[0] % array.itemsize == 0 and array.strides[0] >= width * array.itemsize
+    return array if adjacent and apart and array.size else np.ascontiguousarray(array)
+
+
+def field(graph, pixels, *, start=None, control=None):
+    """Geodesic distance of every pixel to the nearest of the given pixels (one for the field of a seed), eq. 5.
+
+    Parameters
+    ----------
+    graph : Graph
+    pixels : (P,) int, or int
+        ``row * width + column``.
+    start : (P,) float32, optional
+        Distance that each of them starts at; 0.
+    control : Control, optional
+
+    Returns
+    -------
+    (H, W) float32
+        Infinite where no path leads. A view into a slightly larger array: its rows are not adjacent.
+
+    Raises
+    ------
+    Cancelled, ReflcolorError, MemoryError
+    """
+    pixels = graph._pixels(pixels)
+    if start is not None:
+        start = np.ascontiguousarray(np.broadcast_to(np.asarray(start, np.float32), pixels.shape))
+    plane, grid = graph._plane()
+    first = None if start is None else address(start)
+    check(library().rc_field(graph._c, pixels.size, address(pixels), first, address(plane), pointer_to(control)))
+    return grid[..., 0]
+
+
+class Mean(NamedTuple):
+    """Equation 1 for every pixel."""
+
+    chroma: np.ndarray
+    """(2, H, W) float32: the weighted means; 0 where no seed arrives."""
+    weight: np.ndarray
+    """(H, W) float32: the sum of (r / least r)^-alpha; at least 1, 0 where no seed arrives."""
+    nearest_seed: np.ndarray
+    """(H, W) int32: -1 where no seed arrives."""
+    least: np.ndarray
+    """(H, W) float32: distance of the nearest seed; infinite where none arrives."""
+
+
+def nearest(graph, pixels, k, *, control=None):
+    """Find the k nearest seeds of every pixel with their exact distances.
+
+    Parameters
+    ----------
+    graph : Graph
+    pixels : (S,) int
+        One per seed, ``row * width + column``; several seeds may share a pixel.
+    k : int
+        1 to 1024; more than there are seeds leaves places empty.
+    control : Control, optional
+
+    Returns
+    -------
+    Nearest
+
+    Raises
+    ------
+    Cancelled, ReflcolorError, MemoryError
+    """
+    pixels = graph._pixels(pixels)
+    if not 1 <= k <= MAX_NEAREST:
+        raise ReflcolorError(f"the number of nearest seeds must be 1 to {MAX_NEAREST}, found {k}")
+    found = Nearest(graph, k)
+    arguments = pixels.size, address(pixels), k, address(found._plane), pointer_to(control)
+    check(library().rc_nearest(graph._c, *arguments))
+    return found
+
+
+class Nearest:
+    """The k nearest seeds of every pixel, as `nearest` found them; 8 k bytes for each that has a return."""
+
+    def __init__(self, graph, k):
+        self._graph, self._k = graph, k
+        self._plane, self._grid = graph._plane(2 * k)
+        # The kernel leaves memory of pixels without a return untouched, so that it takes no room.
+        self._whole = False
+
+    @property
+    def distances(self):
+        """(H, W, k) float32: ascending; infinite in empty places."""
+        self._complete()
+        return self._grid[..., : self._k]
+
+    @property
+    def seeds(self):
+        """(H, W, k) int32: the lower index first among equal distances; -1 in empty places."""
+        self._complete()
+        return self._grid[..., self._k :].view(np.int32)
+
+    def at(self, pixels):
+        """(P, k) distances and seeds of single pixels that have a return."""
+        lists = self._grid[np.unravel_index(pixels, self._graph.shape)]
+        return lists[:, : self._k], lists[:, self._k :].view(np.int32)
+
+    def blend(self, colors, alpha, *, control=None):
+        """Take equation 1 over the k nearest seeds of every pixel.
+
+        Parameters
+        ----------
+        colors : (S, 2) float
+            Chrominance of all seeds.
+        alpha : float
+        control : Control, optional
+
+        Returns
+        -------
+        mean : Mean
+        bound : (H, W) float32
+            The most by which the seeds left out could change either chrominance, if each lies no nearer than the k-th.
+        """
+        shape, colors = self._graph.shape, _colors(colors)
+        _check_alpha(alpha)
+        mean = Mean(
+            chroma=np.empty((2, *shape), np.float32),
+            weight=np.empty(shape, np.float32),
+            nearest_seed=np.empty(shape, np.int32),
+            least=np.empty(shape, np.float32),
+        )
+        bound = np.empty(shape, np.float32)
+        outputs = [address(each) for each in (mean.least, mean.nearest_seed, mean.weight, *mean.chroma, bound)]
+        rows = max(1, _PIXELS_AT_ONCE // shape[1])
+        for row in range(0, shape[0], rows):
+            if control and control.cancelled:
+                raise Cancelled
+            arguments = row, min(row + rows, shape[0]), self._k, address(self._plane)
+            arguments += len(colors), address(colors), alpha
+            check(library().rc_blend_nearest(self._graph._c, *arguments, *outputs))
+        return mean, bound
+
+    def _complete(self):
+        if not self._whole:
+            height, width = self._graph.shape
+            y = self._graph._y[: (height + 2) * (width + 2)].reshape(height + 2, width + 2)[1:-1, 1:-1]
+            outside = np.isnan(y)
+            self._grid[outside, : self._k] = np.inf
+            self._grid.view(np.int32)[outside, self._k :] = -1
+            self._whole = True
+
+
+class Blend:
+    """The sums of equation 1, taken seed by seed; 20 bytes per pixel.
+
+    Parameters
+    ----------
+    shape : (H, W)
+    alpha : float
+        Exponent of eq. 2, at least 0.
+    """
+
+    def __init__(self, shape, alpha):
+        _check_alpha(alpha)
+        self._alpha = alpha
+        self._mean = Mean(
+            chroma=np.zeros((2, *shape), np.float32),
+            weight=np.zeros(shape, np.float32),
+            nearest_seed=np.full(shape, -1, np.int32),
+            least=np.full(shape, np.inf, np.float32),
+        )
+        self._count = 0
+
+    def add(self, distances, color, control=None):
+        """Add a seed: its (H, W) float32 distances, infinite where it does not reach, and its two chrominances.
+
+        Its index is the number of seeds added so far. The order of adding decides the last bits of the sums. After
+        a cancellation they are of no more use.
+        """
+        self.add_all([distances], [color], control)
+
+    def add_all(self, fields, colors, control=None, run=map):
+        """Add several seeds; ``run`` is `map` or a pool's, which lets threads work on parts of the image."""
+        first, self._count = self._count, self._count + len(fields)
+        fields = [_rows(np.asarray(distances, np.float32)) for distances in fields]
+        height, width = self._mean.weight.shape
+        for distances in fields:
+            if distances.shape != (height, width):
+                raise ReflcolorError(f"distances of shape {distances.shape} do not fit an image {height} x {width}")
+        sums = (self._mean.least, self._mean.nearest_seed, self._mean.weight, *self._mean.chroma)
+        rows = max(1, _PIXELS_AT_ONCE // width)
+
+        def add_to(strip):
+            parts = [address(each[strip]) for each in sums]
+            for seed, (distances, color) in enumerate(zip(fields, colors, strict=True), first):
+                part = distances[strip]
+                stride = max(part.strides[0] // 4, width)
+                arguments = len(part), width, address(part), stride, self._alpha, seed, *map(float, color)
+                check(library().rc_blend_add(*arguments, *parts, pointer_to(control)))
+
+        for _ in run(add_to, [slice(top, min(top + rows, height)) for top in range(0, height, rows)]):
+            pass
+
+    def mean(self, keep=True):
+        """Return the `Mean` of the seeds so far.
+
+        More can be added afterwards if the sums are kept; else they become the result, which saves their memory.
+        """
+        mean = Mean(*(sums.copy() for sums in self._mean)) if keep else self._mean
+        check(library().rc_blend_finish(mean.weight.size, address(mean.weight), *map(address, mean.chroma)))
+        return mean
+
+
+def _check_alpha(alpha):
+    if not 0 <= alpha <= np.finfo(np.float32).max:
+        raise ReflcolorError(f"alpha must be finite and at least 0, found {alpha}")
+
+
+def _colors(colors):
+    colors = np.ascontiguousarray(colors, np.float32)
+    if colors.ndim != 2 or colors.shape[1] != 2:
+        raise ReflcolorError(f"expected chrominances of shape (seeds, 2), found {colors.shape}")
+    if not np.isfinite(colors).all():
+        raise ReflcolorError("chrominances must be finite, found NaN or infinity")
+    return colors

@@ -1,0 +1,1 @@
+"""Matching as the paper has it: superpixels and HOG."""

@@ -1,0 +1,1 @@
+"""The camera of a photo: found, refined, and verified."""

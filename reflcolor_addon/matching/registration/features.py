@@ -1,0 +1,120 @@
+"""Tentative matches by local features, and the homographies that they support."""
+
+import numpy as np
+
+from ..models import GridHomography
+
+_RATIO = 0.9
+_SIDE = 900
+# Photos are mostly held upright: then most matches that turn further are wrong.
+_UPRIGHT_DEG = 30
+_LEAST_MATCHES = 12
+_MOST_POINTS = 3000
+VARIANTS = ("gradient", "gray", "contrast", "inverted")
+"""Which image of the reflectance is tried in turn; the photo's is the same, but never inverted."""
+
+
+def homographies(grid_image, scan_shape, photo, step=lambda: None):
+    """Yield `GridHomography` candidates from matches between the scan's image and a photo, variant by variant.
+
+    Parameters
+    ----------
+    grid_image : (H, W) float32
+        The scan's reflectance as an image of 0..255 that covers its whole grid, whatever its pixels' size.
+    scan_shape : (rows, columns)
+        Of the scan's grid.
+    photo : PhotoImage
+    step : callable
+        Called before each variant; may raise to end the work.
+    """
+    import cv2
+
+    own = _sized(grid_image)
+    other = _sized(photo.levels[0][0])
+    to_grid = np.diag([scan_shape[1] / own.shape[1], scan_shape[0] / own.shape[0], 1.0])
+    to_photo = np.diag([photo.width / other.shape[1], photo.height / other.shape[0], 1.0])
+    for variant in VARIANTS:
+        step()
+        points = _matches(_variant(own, variant), _variant(other, "contrast" if variant == "inverted" else variant))
+        if points is None:
+            continue
+        own_at, other_at, turn = points
+        for chosen in (turn <= _UPRIGHT_DEG, np.ones(len(turn), bool)):
+            if chosen.sum() < _LEAST_MATCHES:
+                continue
+            cv2.setRNGSeed(0)
+            found, _ = cv2.findHomography(
+                own_at[chosen], other_at[chosen], cv2.USAC_MAGSAC, 4.0, maxIters=20_000, confidence=0.999
+            )
+            if found is not None and _sane(found, own.shape):
+                matrix = to_photo @ found @ np.linalg.inv(to_grid)
+                yield GridHomography(matrix / matrix[2, 2], scan_shape, photo.width, photo.height)
+
+
+def straight(scan_shape, photo):
+    """Return the homography of a photo that shows just what the scan shows."""
+    matrix = np.diag([photo.width / scan_shape[1], photo.height / scan_shape[0], 1.0])
+    return GridHomography(matrix, scan_shape, photo.width, photo.height)
+
+
+def _sized(image):
+    import cv2
+
+    scale = _SIDE / max(image.shape)
+    size = tuple(max(16, round(side * scale)) for side in image.shape[::-1])
+    return cv2.resize(image, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC)
+
+
+def _variant(image, name):
+    import cv2
+
+    image = np.clip(image, 0, 255)
+    if name == "gradient":
+        x, y = cv2.Sobel(image, cv2.CV_32F, 1, 0), cv2.Sobel(image, cv2.CV_32F, 0, 1)
+        image = np.sqrt(np.sqrt(x * x + y * y))
+    elif name in ("contrast", "inverted"):
+        image = cv2.createCLAHE(3.0, (8, 8)).apply(image.astype(np.uint8)).astype(np.float32)
+    low, high = np.percentile(image, (0.5, 99.5))
+    image = np.clip((image - low) / max(high - low, 1e-6) * 255, 0, 255).astype(np.uint8)
+    return 255 - image if name == "inverted" else image
+
+
+def _matches(own, other):
+    """Points that may belong together, (N, 2) float32 of each image, and by how many degrees (N,) one is turned against
+    the other, in a fixed order; None where too few."""
+    import cv2
+
+    detector = cv2.SIFT_create(_MOST_POINTS, contrastThreshold=0.02)
+    described = []
+    for image in (own, other):
+        points, descriptors = detector.detectAndCompute(image, None)
+        if descriptors is None or len(points) < _LEAST_MATCHES:
+            return None
+        at = np.array([point.pt for point in points], np.float32)
+        # The detector's threads leave the points in no fixed order.
+        order = np.lexsort((*descriptors.T[:4], at[:, 0], at[:, 1]))
+        angle = np.array([point.angle for point in points])[order]
+        described.append((at[order] + 0.5, descriptors[order], angle))
+    (own_at, own_described, own_angle), (other_at, other_described, other_angle) = described
+    pairs = cv2.BFMatcher(cv2.NORM_L2).knnMatch(own_described, other_described, k=2)
+    pairs = [pair[0] for pair in pairs if len(pair) == 2 and pair[0].distance < _RATIO * pair[1].distance]
+    if len(pairs) < _LEAST_MATCHES:
+        return None
+    # MAGSAC weighs the first ones first.
+    pairs.sort(key=lambda pair: (pair.distance, pair.queryIdx))
+    first, second = [pair.queryIdx for pair in pairs], [pair.trainIdx for pair in pairs]
+    turn = np.abs((own_angle[first] - other_angle[second] + 180) % 360 - 180)
+    return own_at[first], other_at[second], turn
+
+
+def _sane(matrix, shape):
+    """Whether the image of the whole rectangle is a convex quadrangle of the same sense, on one side of the horizon."""
+    height, width = shape
+    corners = np.array([[0, 0, 1], [width, 0, 1], [width, height, 1], [0, height, 1]], float) @ matrix.T
+    if (corners[:, 2] * corners[0, 2] <= 0).any():
+        return False
+    corners = corners[:, :2] / corners[:, 2:]
+    sides = np.roll(corners, -1, axis=0) - corners
+    turns = sides[:, 0] * np.roll(sides, -1, axis=0)[:, 1] - sides[:, 1] * np.roll(sides, -1, axis=0)[:, 0]
+    area = 0.5 * abs(np.sum(corners[:, 0] * np.roll(corners[:, 1], -1) - corners[:, 1] * np.roll(corners[:, 0], -1)))
+    return bool((turns > 0).all() and area > 1e-3 * width * height)

@@ -1,0 +1,251 @@
+"""Scan and photo as maps over azimuth and elevation, and their correlation over all shifts.
+
+Seen from one place, the scan is such a map, and so is a photo of a known focal length; turning the photo left and
+right shifts its map. So one correlation by FFT tries every direction, on edge features (`edges`), normalized by what
+overlaps.
+"""
+
+import os
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..edges import edge_features, filled, scan_features
+from ..models import Camera, camera_axes
+
+# A skyline or an edge of a thing is seen from afar, so range counts for more here than in the tiles.
+_RANGE_WEIGHT = 0.7
+_CUT_MARGIN_DEG = 100
+_LEAST_OVERLAP = 0.2
+_MOST_MAPS, _MOST_SPECTRA = 200, 8
+# Sides of transforms are rounded up to these, so that maps of like size share what is transformed once.
+_ROUND_TO = 32
+_WORKERS = os.cpu_count() or 1
+
+
+@dataclass(frozen=True)
+class Guess:
+    """A camera that may be right, and how far its correlation stands out (in deviations of chance)."""
+
+    score: float
+    focal: float
+    yaw_deg: float
+    pitch_deg: float
+    roll_deg: float
+    center: tuple[float, float, float]
+
+    def camera(self, photo):
+        """Return it as a `Camera` for a `PhotoImage`."""
+        rotation = camera_axes(self.yaw_deg, self.pitch_deg, self.roll_deg)
+        focal_px = self.focal * max(photo.width, photo.height)
+        return Camera(rotation, np.array(self.center), focal_px, 0.0, photo.width, photo.height)
+
+
+class SphereMap:
+    """The scan over azimuth and elevation, seen from a place.
+
+    Parameters
+    ----------
+    points : (N, 3) float64
+        Metres, scanner frame.
+    tone : (N,) float32
+        Their reflectance, see `scan_image.toned`.
+    center : (3,) float
+        The place.
+    step_deg : float
+        Size of a pixel.
+    window : (left, right, bottom, top) of float, optional
+        Only what lies between these azimuths and elevations, in degrees.
+    """
+
+    def __init__(self, points, tone, center, step_deg, window=None):
+        self.center = tuple(float(value) for value in center)
+        self.step_deg = step_deg
+        from_center = points - np.asarray(center)
+        across = np.hypot(from_center[:, 0], from_center[:, 1])
+        azimuth = np.degrees(np.arctan2(from_center[:, 0], from_center[:, 1]))
+        elevation = np.degrees(np.arctan2(from_center[:, 2], across))
+        distance = np.maximum(np.hypot(across, from_center[:, 2]), 1e-9)
+        around = False
+        if window is None:
+            self.left, around = _cut(azimuth)
+            azimuth = (azimuth - self.left) % 360
+            self.top = elevation.max()
+            cols, rows = (azimuth / step_deg).astype(int), ((self.top - elevation) / step_deg).astype(int)
+            shape = (rows.max() + 1, cols.max() + 1)
+        else:
+            self.left, right, bottom, self.top = window
+            shape = (int((self.top - bottom) / step_deg) + 1, int((right - self.left) / step_deg) + 1)
+            cols = (((azimuth - self.left) % 360) / step_deg).astype(int)
+            rows = np.floor((self.top - elevation) / step_deg).astype(int)
+            inside = (cols < shape[1]) & (rows >= 0) & (rows < shape[0])
+            rows, cols, distance, tone = rows[inside], cols[inside], distance[inside], tone[inside]
+        reflectance, range_m, valid = _drawn(rows, cols, shape, distance, tone)
+        if around:
+            # The photo may lie across the cut.
+            margin = min(shape[1], int(_CUT_MARGIN_DEG / step_deg))
+            reflectance, range_m, valid = (np.hstack([a, a[:, :margin]]) for a in (reflectance, range_m, valid))
+        features = scan_features(reflectance, range_m, valid, range_weight=_RANGE_WEIGHT)
+        self._layers = _layers(features, features.any(axis=-1))
+        self.shape = valid.shape
+        self._spectra = None, None
+
+    def peaks(self, photo_maps, key, count, reach=None):
+        """Return the best `Guess`es for one map of a photo.
+
+        Parameters
+        ----------
+        photo_maps : PhotoMaps
+        key : (focal, pitch_deg, roll_deg)
+        count : int
+        reach : (float, float), optional
+            Degrees of yaw and pitch that the map of the photo is tried around the middle of this map; all without.
+        """
+        patch = photo_maps.at(*key)
+        if patch is None:
+            return []
+        scores = self._correlation(photo_maps, key, patch)
+        height, width = patch.seen.shape
+        # scores[row, col]: for the photo's corner at row - its height, col - its width.
+        if reach is not None:
+            rows, cols = (np.arange(length) for length in scores.shape)
+            off_row = np.abs(rows - height / 2 - self.shape[0] / 2) * self.step_deg
+            off_col = np.abs(cols - width / 2 - self.shape[1] / 2) * self.step_deg
+            scores[(off_row > reach[1])[:, None] | (off_col > reach[0])] = -1
+        apart = max(2, round(1.6 / self.step_deg))
+        found = []
+        for _ in range(count):
+            row, col = np.unravel_index(scores.argmax(), scores.shape)
+            if scores[row, col] <= 0:
+                break
+            yaw = self.left + (col - width) * self.step_deg - patch.left
+            rise = self.top - (row - height) * self.step_deg - patch.top
+            score = float(scores[row, col])
+            found.append(Guess(score, key[0], float(yaw), float(key[1] + rise), float(key[2]), self.center))
+            scores[max(0, row - apart) : row + apart + 1, max(0, col - apart) : col + apart + 1] = -1
+        return found
+
+    def _correlation(self, photo_maps, key, patch):
+        """(h, w): correlation times the root of the overlap."""
+        from scipy import fft
+
+        height, width = patch.seen.shape
+        shape = tuple(
+            fft.next_fast_len(-(-(own + other) // _ROUND_TO) * _ROUND_TO, real=True)
+            for own, other in zip(self.shape, patch.seen.shape, strict=True)
+        )
+        if self._spectra[0] != shape:
+            self._spectra = shape, fft.rfft2(self._layers, shape, workers=_WORKERS)
+        own, other = self._spectra[1], photo_maps.spectra(key, shape)
+        # Products, and the energies of both within the overlap, and the overlap itself.
+        spectra = np.empty((4, *own.shape[1:]), np.complex64)
+        np.einsum("cij,cij->ij", own[:-2], other[:-2], out=spectra[0])
+        np.multiply(own[-2:-1], other[-1], out=spectra[1:2])
+        np.multiply(own[-1], other[-2:], out=spectra[2:])
+        product, energy, energy_other, overlap = fft.irfft2(spectra, shape, workers=_WORKERS)
+        enough = overlap > _LEAST_OVERLAP * min(patch.seen.sum(), self._layers[-1].sum())
+        both = np.maximum(energy, 1e-2) * np.maximum(energy_other, 1e-2)
+        scores = np.where(enough, product * np.sqrt(np.maximum(overlap, 0) / both), -1)
+        return np.roll(scores, (height, width), (0, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class _PhotoMap:
+    """Features (h, w, 5) of a photo over azimuth and elevation, where it is seen, its left and its top in degrees."""
+
+    features: np.ndarray
+    seen: np.ndarray
+    left: float
+    top: float
+
+
+class PhotoMaps:
+    """The maps of a photo for focal lengths (in lengths of its longer side), pitches and rolls, made once each."""
+
+    def __init__(self, photo, step_deg):
+        self.photo, self.step_deg = photo, step_deg
+        self._maps, self._transformed = {}, {}
+
+    def at(self, focal, pitch_deg, roll_deg):
+        """Return the map, or None where it would go around too far or shows too little."""
+        key = (focal, pitch_deg, roll_deg)
+        if key not in self._maps:
+            if len(self._maps) >= _MOST_MAPS:
+                self._maps.clear()
+            self._maps[key] = _photo_map(self.photo, focal, pitch_deg, roll_deg, self.step_deg)
+        return self._maps[key]
+
+    def spectra(self, key, shape):
+        """Return the conjugate transforms of a map's layers."""
+        from scipy import fft
+
+        if (key, shape) not in self._transformed:
+            if len(self._transformed) >= _MOST_SPECTRA:
+                self._transformed.clear()
+            patch = self.at(*key)
+            self._transformed[key, shape] = np.conj(
+                fft.rfft2(_layers(patch.features, patch.seen), shape, workers=_WORKERS)
+            )
+        return self._transformed[key, shape]
+
+
+def _layers(features, seen):
+    """(7, h, w) float32: the features, their energy, and where there are any."""
+    energy = (features**2).sum(axis=-1)
+    return np.concatenate([np.moveaxis(features, -1, 0), energy[None], seen[None]]).astype(np.float32)
+
+
+def _cut(azimuth_deg):
+    """The azimuth at the right end of the widest empty sector, and whether there is none."""
+    empty = np.histogram(azimuth_deg, 360, (-180, 180))[0] == 0
+    if not empty.any():
+        return -180.0, True
+    starts = np.flatnonzero(np.diff(np.concatenate([[0], np.tile(empty, 2), [0]])) == 1)
+    ends = np.flatnonzero(np.diff(np.concatenate([[0], np.tile(empty, 2), [0]])) == -1)
+    widest = np.argmax(ends - starts)
+    return float(-180 + ends[widest] % 360), bool(ends[widest] - starts[widest] < 3)
+
+
+def _drawn(rows, cols, shape, distance, tone):
+    """Points drawn into a map: the mean of the nearest surface in each pixel, small holes closed."""
+    import cv2
+
+    place = rows * shape[1] + cols
+    nearest = np.full(shape[0] * shape[1], np.inf)
+    np.minimum.at(nearest, place, distance)
+    front = distance < nearest[place] * 1.03
+    place, tone, distance = place[front], tone[front], distance[front]
+    count = np.bincount(place, minlength=nearest.size)
+    sums = [np.bincount(place, values, nearest.size) for values in (tone, distance)]
+    reflectance, range_m = ((total / np.maximum(count, 1)).reshape(shape).astype(np.float32) for total in sums)
+    valid = (count > 0).reshape(shape)
+    closed = cv2.morphologyEx(valid.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((3, 3))) > 0
+    holes = closed & ~valid
+    share = np.maximum(cv2.blur(valid.astype(np.float32), (3, 3)), 1e-6)
+    for image in (reflectance, range_m):
+        image[holes] = (cv2.blur(image, (3, 3)) / share)[holes]
+    return reflectance, range_m, closed
+
+
+def _photo_map(photo, focal, pitch_deg, roll_deg, step_deg):
+    width, height = photo.width, photo.height
+    focal_px = focal * max(width, height)
+    rotation = camera_axes(0.0, pitch_deg, roll_deg)
+    x, y = np.meshgrid(np.linspace(-width / 2, width / 2, 9), np.linspace(-height / 2, height / 2, 9))
+    rays = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, focal_px)]) @ rotation
+    azimuth = np.degrees(np.arctan2(rays[:, 0], rays[:, 1]))
+    elevation = np.degrees(np.arctan2(rays[:, 2], np.hypot(rays[:, 0], rays[:, 1])))
+    if np.ptp(azimuth) > 170:
+        return None
+    left, top = np.floor(azimuth.min() / step_deg) * step_deg, np.ceil(elevation.max() / step_deg) * step_deg
+    cols, rows = int((azimuth.max() - left) / step_deg) + 1, int((top - elevation.min()) / step_deg) + 1
+    azimuth, elevation = np.meshgrid(
+        np.radians(left + (np.arange(cols) + 0.5) * step_deg), np.radians(top - (np.arange(rows) + 0.5) * step_deg)
+    )
+    rays = np.stack([np.sin(azimuth) * np.cos(elevation), np.cos(azimuth) * np.cos(elevation), np.sin(elevation)], -1)
+    xy, _ = Camera(rotation, np.zeros(3), focal_px, 0.0, width, height).project(rays)
+    seen = np.isfinite(xy).all(axis=-1)
+    image, seen = photo.sampled(xy, seen, focal_px * np.radians(step_deg))
+    if np.count_nonzero(seen) < 64:
+        return None
+    return _PhotoMap(edge_features(filled(image, seen), seen), seen, left, top)

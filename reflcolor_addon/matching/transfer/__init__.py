@@ -1,0 +1,1 @@
+"""From photos with known cameras to colors of the scan."""

@@ -1,0 +1,86 @@
+"""What a report says of where colors are from, for people: which are evidence, and which are inference."""
+
+import json
+from collections import Counter
+from dataclasses import dataclass
+
+from ..errors import ReflcolorError
+from .report import FORMAT, VERSION
+
+SOURCES = ("photo", "hand", "pose", "homography", "appearance")
+"""Where a seed's color is from: a point of a photo picked by a person, a color given by one, or found in a photo."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Provenance:
+    """The outline of a report.
+
+    Parameters
+    ----------
+    created : str
+        UTC, as in ISO 8601; empty where it was not kept.
+    inputs : tuple of (role, path, sha256)
+        ``sha256`` is None where the file was not seen.
+    sources : dict
+        Seeds by source, in the order of ``SOURCES``, those that occur. They are the evidence.
+    inferred : int
+        Pixels whose color was spread from the seeds.
+    unreached : int
+        Pixels that no seed reaches; they are gray.
+    versions : dict
+        Of reflcolor and of Blender, where they are known.
+    """
+
+    created: str
+    inputs: tuple[tuple[str, str, str | None], ...]
+    sources: dict[str, int]
+    inferred: int
+    unreached: int
+    versions: dict[str, str]
+
+
+def parse_provenance(text):
+    """Return the report that a text holds.
+
+    Raises
+    ------
+    ReflcolorError
+        If it holds none that this version can read.
+    """
+    try:
+        report = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise ReflcolorError("the provenance is no JSON") from error
+    if not isinstance(report, dict) or (report.get("format"), report.get("version")) != (FORMAT, VERSION):
+        raise ReflcolorError(f'the provenance is not of the format "{FORMAT}", version {VERSION}')
+    return report
+
+
+def outline(report):
+    """Return the Provenance of a report.
+
+    Raises
+    ------
+    ReflcolorError
+        If something is missing in it.
+    """
+    try:
+        found = Counter(_source(seed) for seed in report["seeds"])
+        # A seed is a pixel that was not inferred; several may lie on the same one.
+        evidence = len({(seed["row"], seed["col"]) for seed in report["seeds"]})
+        return Provenance(
+            created=str(report.get("created", "")),
+            inputs=tuple((entry["role"], entry["path"], entry["sha256"]) for entry in report["inputs"]),
+            sources={source: found[source] for source in SOURCES if found[source]},
+            inferred=report["result"]["colored"] - evidence,
+            unreached=report["result"]["unreached"],
+            versions={name: report["versions"][name] for name in ("reflcolor", "blender") if report["versions"][name]},
+        )
+    except (KeyError, TypeError) as error:
+        raise ReflcolorError("the provenance is incomplete") from error
+
+
+def _source(seed):
+    if seed["reason"] in (None, "hand"):
+        return "hand" if seed["photo"] is None else "photo"
+    return seed["reason"]

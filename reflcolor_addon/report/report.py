@@ -1,0 +1,162 @@
+"""What was done, with what, to what: enough to do it again."""
+
+import hashlib
+import importlib.metadata
+import math
+import platform
+from datetime import UTC, datetime
+
+from ..errors import Cancelled, ReflcolorError
+from ..scan.normalization import PERCENTILES
+from ..version import __version__
+
+FORMAT = "reflcolor-report"
+VERSION = 1
+# Packages that a result depends on.
+_PACKAGES = ("numpy", "scipy", "scikit-image", "opencv-python-headless", "pye57")
+_CHUNK_BYTES = 1 << 20
+
+
+def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(), photos=(), noticed=(), blender=None):
+    """Describe a colorization; the same work on the same machine gives the same report.
+
+    Parameters
+    ----------
+    scan : dict
+        From `scan_entry`.
+    colorization : Colorization
+    settings : Settings
+    given_seeds : Seeds
+        The seeds before any was moved.
+    inputs : list of dict
+        From `input_entry`.
+    outputs : sequence of (str, Path)
+        The option that asked for it, and the file.
+    photos : sequence of dict
+        From `photo_entry`: what became of each photo that seeds were looked for in.
+    noticed : sequence of str
+        Warnings from before the colorization.
+    blender : str, optional
+        Blender's version.
+
+    Returns
+    -------
+    dict
+        Ready for JSON, with no number that is not finite.
+    """
+    colored = int((colorization.nearest_seed >= 0).sum())
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "scan": scan,
+        "settings": settings.as_dict(),
+        "seeds": seed_entries(colorization.seeds, given_seeds),
+        "photos": list(photos),
+        "normalization": {
+            "percentiles": list(PERCENTILES),
+            "reflectance": list(colorization.normalization["reflectance"]),
+            "range_m": list(colorization.normalization["range"]),
+        },
+        "result": {"colored": colored, "unreached": scan["returns"] - colored},
+        "method": colorization.method,
+        "warnings": [*noticed, *colorization.warnings],
+        "inputs": list(inputs),
+        "outputs": [{"option": option, "path": str(path)} for option, path in outputs],
+        "versions": versions(blender),
+    }
+
+
+def stamped(report):
+    """Return the report with the time that it is now, as ``created``, in UTC."""
+    return report | {"created": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")}
+
+
+def scan_entry(scan, index, flipped=()):
+    """Return what a report says of a scan.
+
+    Parameters
+    ----------
+    scan : Scan
+    index : int
+        The scan's place in its file, from 1.
+    flipped : sequence of {"vertical", "horizontal"}
+        How its grid was turned after it was read.
+    """
+    rows, columns = scan.shape
+    return {
+        "name": scan.name,
+        "index": index,
+        "rows": rows,
+        "columns": columns,
+        "returns": int(scan.valid.sum()),
+        "full_turn": scan.full_turn,
+        "flipped": list(flipped),
+    }
+
+
+def input_entry(role, path, cancelled=None):
+    """Return what a report says of an input: what it is for ("scan", "seeds", "photo"), where it is, size and hash.
+
+    Raises
+    ------
+    ReflcolorError
+        If it cannot be read.
+    Cancelled
+        If ``cancelled()`` returned True.
+    """
+    return {"role": role, "path": str(path)} | fingerprint(path, cancelled)
+
+
+def photo_entry(photo):
+    """Return what a report says of a PhotoMatch."""
+    return {"name": photo.name, "verified": photo.verified, "reason": photo.reason, "note": photo.note}
+
+
+def seed_entries(seeds, given):
+    """Return one dictionary for each seed as it was used.
+
+    ``photo``, ``x``, ``y`` tell where its color is from (None: given directly), ``moved_from`` the pixel that was asked
+    for where that had no return (None: not moved).
+    """
+    entries = []
+    for index, photo in enumerate(seeds.photos):
+        used, asked = ({"row": int(those.rows[index]), "col": int(those.cols[index])} for those in (seeds, given))
+        x, y = (None if math.isnan(value) else value for value in seeds.photo_xy[index].tolist())
+        color = {"rgb": seeds.rgb[index].tolist(), "photo": photo, "x": x, "y": y}
+        confidence = seeds.confidence[index].item()
+        found = {"confidence": None if math.isnan(confidence) else confidence, "reason": seeds.reason[index]}
+        entries.append(used | color | found | {"moved_from": None if asked == used else asked})
+    return entries
+
+
+def fingerprint(path, cancelled=None):
+    """Return the size and the SHA-256 of a file, as ``{"bytes": ..., "sha256": ...}``; raises as `input_entry`."""
+    digest, size = hashlib.sha256(), 0
+    try:
+        with path.open("rb") as file:
+            while chunk := file.read(_CHUNK_BYTES):
+                if cancelled is not None and cancelled():
+                    raise Cancelled
+                digest.update(chunk)
+                size += len(chunk)
+    except OSError as error:
+        raise ReflcolorError(f"{path}: can no longer be read ({error.strerror})") from error
+    return {"bytes": size, "sha256": digest.hexdigest()}
+
+
+def versions(blender=None):
+    """Return the versions of everything that a result depends on; None for what is not installed."""
+    return {
+        "reflcolor": __version__,
+        "blender": blender,
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        **{name: _package_version(name) for name in _PACKAGES},
+    }
+
+
+def _package_version(name):
+    try:
+        return importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        return None

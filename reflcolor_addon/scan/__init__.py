@@ -1,0 +1,1 @@
+"""A scan and its geometry: orientation, normalization, normals, the mesh of its grid."""

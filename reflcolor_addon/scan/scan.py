@@ -1,0 +1,136 @@
+"""A structured laser scan: one range and one reflectance at every pixel of the scanner's grid."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ScanError
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Scan:
+    """One scan, upright: row 0 is the top, columns run left to right as seen from the scanner.
+
+    Parameters
+    ----------
+    name : str
+        Name of the scan; the file's stem where the file gives none.
+    points : (H, W, 3) float64
+        Metres, in the scanner's frame (Z up, the scanner at the origin); zeros where not valid.
+    reflectance : (H, W) float32
+        Raw, in whatever unit the file has it.
+    valid : (H, W) bool
+        True where the scanner got a return.
+    color : (H, W, 3) uint8, optional
+        sRGB that came with the scan.
+    pose : (4, 4) float64
+        Scanner frame to world, column-vector convention (translation in the last column).
+    source : Path, optional
+        The file that the scan was read from.
+    warnings : tuple of str
+        What the reader noticed and mended, one line each.
+
+    Raises
+    ------
+    ScanError
+        If shapes disagree, the grid is empty, or a valid pixel holds a number that is not finite.
+    """
+
+    name: str
+    points: np.ndarray
+    reflectance: np.ndarray
+    valid: np.ndarray
+    color: np.ndarray | None = None
+    pose: np.ndarray = field(default_factory=lambda: np.eye(4))
+    source: Path | None = None
+    warnings: tuple[str, ...] = ()
+
+    def __post_init__(self):
+        shape = np.shape(self.valid)
+        if len(shape) != 2 or 0 in shape:
+            raise ScanError(f"{self.name}: a scan is a grid of rows x columns, found shape {shape}")
+        arrays = {
+            "points": np.ascontiguousarray(self.points, np.float64),
+            "reflectance": np.ascontiguousarray(self.reflectance, np.float32),
+            "valid": np.ascontiguousarray(self.valid, bool),
+            "pose": np.ascontiguousarray(self.pose, np.float64),
+        }
+        expected = {"points": (*shape, 3), "reflectance": shape, "valid": shape, "pose": (4, 4)}
+        if self.color is not None:
+            arrays["color"] = np.ascontiguousarray(self.color)
+            expected["color"] = (*shape, 3)
+            if arrays["color"].dtype != np.uint8:
+                raise ScanError(f"{self.name}: color must be uint8, found {arrays['color'].dtype}")
+        for key, array in arrays.items():
+            if array.shape != expected[key]:
+                raise ScanError(f"{self.name}: {key} has shape {array.shape}, expected {expected[key]}")
+        valid = arrays["valid"]
+        if not np.isfinite(arrays["pose"]).all():
+            raise ScanError(f"{self.name}: the pose holds a number that is not finite")
+        if not np.isfinite(arrays["points"][valid]).all():
+            raise ScanError(f"{self.name}: a valid pixel has a point that is not finite")
+        if not np.isfinite(arrays["reflectance"][valid]).all():
+            raise ScanError(f"{self.name}: a valid pixel has a reflectance that is not finite")
+        arrays["points"] = np.where(valid[..., None], arrays["points"], 0.0)
+        for key, array in arrays.items():
+            object.__setattr__(self, key, array)
+
+    @property
+    def shape(self):
+        """(H, W): rows and columns of the grid."""
+        return self.valid.shape
+
+    @cached_property
+    def range(self):
+        """(H, W) float64, metres from the scanner; 0 where not valid."""
+        return np.sqrt(np.einsum("ijk,ijk->ij", self.points, self.points))
+
+    @cached_property
+    def _azimuth_steps(self):
+        """Median azimuth (radians) of each column that can be measured, and its column index."""
+        horizontal = np.hypot(self.points[..., 0], self.points[..., 1])
+        usable = self.valid & (horizontal > 0.05 * np.maximum(self.range, 1e-12))
+        azimuth = np.arctan2(self.points[..., 1], self.points[..., 0])
+        columns = np.flatnonzero(usable.any(axis=0))
+        # The mean direction, so that a column at the cut of arctan2 does not average to nonsense.
+        sine = np.where(usable, np.sin(azimuth), 0).sum(axis=0)[columns]
+        cosine = np.where(usable, np.cos(azimuth), 0).sum(axis=0)[columns]
+        return columns, np.arctan2(sine, cosine)
+
+    @cached_property
+    def step_deg(self):
+        """(vertical, horizontal) angle between neighboring pixels in degrees; NaN where it cannot be measured."""
+        elevation = np.arctan2(self.points[..., 2], np.hypot(self.points[..., 0], self.points[..., 1]))
+        both = self.valid[1:] & self.valid[:-1]
+        vertical = np.degrees(np.median(np.abs(np.diff(elevation, axis=0))[both])) if both.any() else np.nan
+        columns, azimuth = self._azimuth_steps
+        turn = np.abs(_wrapped(np.diff(azimuth)))[np.diff(columns) == 1]
+        return float(vertical), float(np.degrees(np.median(turn))) if turn.size else float("nan")
+
+    @property
+    def pixel_aspect(self):
+        """Width of a pixel over its height, as angles; 1 where they are nearly equal or cannot be measured."""
+        vertical, horizontal = self.step_deg
+        aspect = horizontal / vertical if vertical > 0 and horizontal > 0 else 1.0
+        return float(aspect) if not 0.9 < aspect < 1.1 and 0.02 < aspect < 50 else 1.0
+
+    @cached_property
+    def full_turn(self):
+        """True where the left and the right edge of the grid are neighbors: the scan covers 360 degrees."""
+        columns, azimuth = self._azimuth_steps
+        width = self.shape[1]
+        if columns.size < 8 or columns.size < 0.5 * width:
+            return False
+        turn, gap = _wrapped(np.diff(azimuth)), np.diff(columns)
+        step = np.median(np.abs(turn[gap == 1])) if (gap == 1).any() else 0.0
+        # Sum over the measured columns, then the step that would join the last one to the first.
+        covered = abs(turn.sum())
+        joint = (width - columns[-1] + columns[0]) * step
+        return bool(step > 0 and abs(covered + joint - 2 * np.pi) < 1.5 * step + 0.02 * joint)
+
+
+def _wrapped(angle):
+    """Radians brought to -pi..pi."""
+    return (angle + np.pi) % (2 * np.pi) - np.pi

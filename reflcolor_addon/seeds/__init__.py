@@ -1,0 +1,1 @@
+"""Seeds: pixels of known color, and their JSON files."""

@@ -1,0 +1,359 @@
+"""Seeds: pixels of the scan whose color is known."""
+
+import json
+import math
+import reprlib
+from dataclasses import dataclass, replace
+from numbers import Integral, Real
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import SeedsError
+from ..files.atomic import written_atomically
+from ..files.images import read_image
+
+FORMAT = "reflcolor-seeds"
+VERSION = 1
+# From so many seeds on pixels without a return on it is asked whether they belong to the scan.
+_MANY_MOVED = 5
+_KEYS = ("row", "col", "rgb", "photo", "x", "y", "confidence", "reason")
+REASONS = ("pose", "homography", "appearance", "hand")
+
+
+@dataclass(frozen=True, eq=False)
+class Seeds:
+    """Where in the scan which color is.
+
+    Parameters
+    ----------
+    rows, cols : (S,) int
+        Pixels of the scan's grid, row 0 at the top.
+    rgb : (S, 3) uint8
+        sRGB.
+    photos : (S,) sequence of str or None, optional
+        Name of the photo that a seed's color was taken from.
+    photo_xy : (S, 2) float, optional
+        Where in that photo, in pixels from its top left corner (the first pixel's center is at 0.5, 0.5); NaN where
+        the color was given directly.
+    confidence : (S,) float, optional
+        How sure a color is, 0..1; NaN where nobody says.
+    reason : (S,) sequence of {"pose", "homography", "appearance", "hand"} or None, optional
+        Why the seed has its color: by the photo's verified camera or homography, by likeness, picked by hand.
+
+    Raises
+    ------
+    SeedsError
+        If the arrays disagree in length, or hold what is no pixel or no color.
+    """
+
+    rows: np.ndarray
+    cols: np.ndarray
+    rgb: np.ndarray
+    photos: tuple[str | None, ...] | None = None
+    photo_xy: np.ndarray | None = None
+    confidence: np.ndarray | None = None
+    reason: tuple[str | None, ...] | None = None
+
+    def __post_init__(self):
+        count = np.size(self.rows)
+        reason = (None,) * count if self.reason is None else tuple(self.reason)
+        confidence = np.full(count, np.nan) if self.confidence is None else self.confidence
+        photos = (None,) * count if self.photos is None else tuple(self.photos)
+        photo_xy = np.full((count, 2), np.nan) if self.photo_xy is None else self.photo_xy
+        arrays = {
+            "rows": _whole_numbers("rows", self.rows, np.int64),
+            "cols": _whole_numbers("cols", self.cols, np.int64),
+            "rgb": _whole_numbers("rgb", self.rgb, np.uint8).reshape(-1, 3)
+            if count == 0
+            else _whole_numbers("rgb", self.rgb, np.uint8),
+            "photo_xy": np.asarray(photo_xy, np.float64).reshape(-1, 2),
+            "confidence": np.asarray(confidence, np.float64),
+        }
+        for name, array in arrays.items():
+            expected = (count, *{"rgb": (3,), "photo_xy": (2,)}.get(name, ()))
+            if array.shape != expected:
+                raise SeedsError(f"seeds: {name} has shape {array.shape}, expected {expected}")
+            object.__setattr__(self, name, array)
+        if len(photos) != count:
+            raise SeedsError(f"seeds: {len(photos)} photo names for {count} seeds")
+        object.__setattr__(self, "photos", photos)
+        if len(reason) != count:
+            raise SeedsError(f"seeds: {len(reason)} reasons for {count} seeds")
+        unknown = set(reason) - {None, *REASONS}
+        if unknown:
+            raise SeedsError(f"seeds: reason: expected one of {', '.join(REASONS)}, found {sorted(unknown)[0]!r}")
+        object.__setattr__(self, "reason", reason)
+
+    def __len__(self):
+        return self.rows.size
+
+    def chosen(self, indices):
+        """Return the seeds of these indices, in their order."""
+        indices = np.asarray(indices, np.int64)
+        return Seeds(
+            rows=self.rows[indices],
+            cols=self.cols[indices],
+            rgb=self.rgb[indices],
+            photos=[self.photos[index] for index in indices],
+            photo_xy=self.photo_xy[indices],
+            confidence=self.confidence[indices],
+            reason=[self.reason[index] for index in indices],
+        )
+
+    @classmethod
+    def load(cls, path, photos=()):
+        """Read seeds from a JSON file.
+
+        A seed has ``row`` and ``col`` and either ``rgb`` or a point of a photo: ``photo``, ``x``, ``y``, in pixels from
+        the photo's top left corner. A photo is found by its name among ``photos``, else beside the seeds' file.
+
+        Parameters
+        ----------
+        path : path
+        photos : sequence of paths
+            Photos that the seeds may name.
+
+        Raises
+        ------
+        SeedsError
+            If the file cannot be read, or a seed in it cannot be used.
+        ImageError
+            If a photo cannot be read.
+        """
+        path = Path(path)
+        return _SeedsFile(path, photos).seeds()
+
+    def save(self, path):
+        """Write the seeds as JSON; the file is whole or not there.
+
+        Raises
+        ------
+        OutputError
+            If the file cannot be written.
+        """
+        entries = []
+        columns = (self.rows, self.cols, self.rgb, self.photo_xy, self.confidence)
+        for row, col, rgb, (x, y), confidence, photo, reason in zip(
+            *(column.tolist() for column in columns), self.photos, self.reason, strict=True
+        ):
+            entry = {"row": row, "col": col, "rgb": rgb}
+            if photo is not None and not math.isnan(x):
+                entry |= {"photo": photo, "x": x, "y": y}
+            if not math.isnan(confidence):
+                entry["confidence"] = round(confidence, 3)
+            if reason is not None:
+                entry["reason"] = reason
+            entries.append(entry)
+        lines = ",\n".join(f"  {json.dumps(entry, ensure_ascii=False)}" for entry in entries)
+        text = f'{{"format": "{FORMAT}", "version": {VERSION}, "seeds": [\n{lines}\n]}}\n'
+        with written_atomically(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+
+    def placed_on(self, scan):
+        """Return these seeds on pixels with a return, and what had to be moved for that.
+
+        Returns
+        -------
+        seeds : Seeds
+        warnings : list of str
+            One line per seed that lay on a pixel without return and was moved to the nearest pixel with one; one more
+            before them where they are many.
+
+        Raises
+        ------
+        SeedsError
+            If there are no seeds, one is outside the grid, or the scan has no return at all.
+        """
+        if len(self) == 0:
+            raise SeedsError("no seeds: add at least one pixel with a color")
+        if not scan.valid.any():
+            raise SeedsError(f"{scan.name}: no pixel has a return, so no seed can be placed")
+        height, width = scan.shape
+        rows, cols, warnings = self.rows.copy(), self.cols.copy(), []
+        for index, (row, col) in enumerate(zip(rows.tolist(), cols.tolist(), strict=True)):
+            if not (0 <= row < height and 0 <= col < width):
+                raise SeedsError(
+                    f"seed {index + 1}: row {row}, column {col} is outside the scan's grid "
+                    f"(rows 0 to {height - 1}, columns 0 to {width - 1})"
+                )
+            if not scan.valid[row, col]:
+                rows[index], cols[index] = nearest_valid(scan.valid, row, col, wrap=scan.full_turn)
+                warnings.append(
+                    f"seed {index + 1}: no return at row {row}, column {col}; "
+                    f"moved to row {rows[index]}, column {cols[index]}"
+                )
+        if len(warnings) >= _MANY_MOVED:
+            warnings.insert(
+                0,
+                f"{len(warnings)} of {len(self)} seeds lie where {scan.name} has no return; are they of another scan?",
+            )
+        return replace(self, rows=rows, cols=cols), warnings
+
+
+def nearest_valid(valid, row, col, *, wrap=False):
+    """Return (row, col) of the pixel with a return that is nearest in the grid; the first in reading order of several.
+
+    Parameters
+    ----------
+    valid : (H, W) bool
+        True somewhere.
+    row, col : int
+        Inside the grid.
+    wrap : bool
+        Whether the left and the right edge are neighbors.
+    """
+    height, width = valid.shape
+    radius = 0
+    while True:
+        rows = np.arange(max(0, row - radius), min(height, row + radius + 1))
+        if wrap:
+            # Each column once, the way around that is shorter.
+            cols = np.arange(col - min(radius, (width - 1) // 2), col + min(radius, width // 2) + 1)
+        else:
+            cols = np.arange(max(0, col - radius), min(width, col + radius + 1))
+        found_rows, found_cols = np.nonzero(valid[np.ix_(rows, cols % width)])
+        squared = (rows[found_rows] - row) ** 2 + (cols[found_cols] - col) ** 2
+        # A nearer pixel can still lie outside the square than one in its corner.
+        if squared.size and (squared.min() <= radius**2 or radius >= max(height, width)):
+            best = np.lexsort((cols[found_cols] % width, rows[found_rows], squared))[0]
+            return int(rows[found_rows[best]]), int(cols[found_cols[best]] % width)
+        radius = max(1, 2 * radius)
+
+
+def find_photo(name, seeds_path, photos):
+    """Return the path of the photo that a file of seeds names; None where there is none.
+
+    Parameters
+    ----------
+    name : str
+    seeds_path : Path
+        The file of seeds.
+    photos : sequence of paths
+        Photos that were given. Only their file names count; they go before what is beside the file of seeds.
+
+    Raises
+    ------
+    SeedsError
+        If several of the given photos have that name.
+    """
+    given = sorted({Path(photo) for photo in photos if Path(photo).name == Path(name).name})
+    if len(given) > 1:
+        raise SeedsError(f"{seeds_path}: photo {name} may be {given[0]} or {given[1]}; give them different names")
+    path = given[0] if given else seeds_path.parent / name
+    return path if path.is_file() else None
+
+
+def sample_photo(photo, x, y):
+    """Return the (3,) uint8 color of the pixel of a photo that contains the point.
+
+    Parameters
+    ----------
+    photo : (H, W, 3) uint8
+    x, y : float
+        Pixels from the top left corner.
+
+    Raises
+    ------
+    SeedsError
+        If the point is outside the photo.
+    """
+    height, width = photo.shape[:2]
+    if not (0 <= x <= width and 0 <= y <= height):
+        raise SeedsError(f"point {x:g}, {y:g} is outside the photo ({width} x {height} pixels)")
+    return photo[min(int(y), height - 1), min(int(x), width - 1)]
+
+
+class _SeedsFile:
+    """One reading of a JSON file of seeds."""
+
+    def __init__(self, path, photos):
+        self._path = path
+        self._photos = photos
+        self._images = {}
+
+    def seeds(self):
+        document = self._document()
+        entries = [self._entry(place, entry) for place, entry in enumerate(document["seeds"], 1)]
+        rows, cols, rgb, photos, xy, confidence, reason = zip(*entries, strict=True) if entries else ((),) * 7
+        return Seeds(rows, cols, rgb, photos, np.array(xy, np.float64).reshape(-1, 2), np.array(confidence), reason)
+
+    def _document(self):
+        try:
+            document = json.loads(self._path.read_text(encoding="utf-8-sig"))
+        except OSError as error:
+            raise SeedsError(f"{self._path}: cannot be read ({error.strerror})") from error
+        except UnicodeDecodeError as error:
+            raise SeedsError(f"{self._path}: expected a JSON file of seeds, found bytes that are no text") from error
+        except json.JSONDecodeError as error:
+            place = f"line {error.lineno}, column {error.colno}"
+            raise SeedsError(f"{self._path}: {place}: expected a JSON file of seeds ({error.msg})") from error
+        except (ValueError, RecursionError) as error:  # a number of thousands of digits, brackets without end
+            raise SeedsError(f"{self._path}: expected a JSON file of seeds, found what JSON cannot hold") from error
+        if not isinstance(document, dict) or document.get("format") != FORMAT:
+            raise SeedsError(f'{self._path}: expected a JSON object with "format": "{FORMAT}"')
+        if document.get("version") != VERSION:
+            found = reprlib.repr(document.get("version"))
+            raise SeedsError(f'{self._path}: "version": expected {VERSION}, found {found}')
+        if not isinstance(document.get("seeds"), list):
+            raise SeedsError(f'{self._path}: "seeds": expected a list, found {reprlib.repr(document.get("seeds"))}')
+        return document
+
+    def _entry(self, place, entry):
+        where = f"{self._path}: seed {place}"
+        if not isinstance(entry, dict):
+            raise SeedsError(f"{where}: expected an object with row, col and a color, found {reprlib.repr(entry)}")
+        unknown = sorted(set(entry) - set(_KEYS))
+        if unknown:
+            raise SeedsError(f"{where}: {unknown[0]}: not a key of a seed; known are {', '.join(_KEYS)}")
+        row, col = (self._number(where, entry, key, Integral) for key in ("row", "col"))
+        photo, xy = None, (math.nan, math.nan)
+        if "photo" in entry:
+            photo = entry["photo"]
+            if not isinstance(photo, str) or not photo:
+                raise SeedsError(f"{where}: photo: expected a file name, found {reprlib.repr(photo)}")
+            xy = tuple(float(self._number(where, entry, key, Real)) for key in ("x", "y"))
+        if "rgb" in entry:
+            rgb = entry["rgb"]
+            whole = isinstance(rgb, list) and all(type(value) is int and 0 <= value <= 255 for value in rgb)
+            if not whole or len(rgb) != 3:
+                raise SeedsError(f"{where}: rgb: expected three whole numbers from 0 to 255, found {reprlib.repr(rgb)}")
+        elif photo is not None:
+            image = self._image(photo, where)
+            try:
+                rgb = sample_photo(image, *xy)
+            except SeedsError as error:
+                raise SeedsError(f"{where}: {photo}: {error}") from error
+        else:
+            raise SeedsError(f"{where}: expected a color: either rgb, or photo with x and y")
+        confidence = float(self._number(where, entry, "confidence", Real)) if "confidence" in entry else math.nan
+        reason = entry.get("reason")
+        if reason is not None and reason not in REASONS:
+            raise SeedsError(f"{where}: reason: expected one of {', '.join(REASONS)}, found {reprlib.repr(reason)}")
+        return row, col, rgb, photo, xy, confidence, reason
+
+    def _number(self, where, entry, key, kind):
+        value = entry.get(key)
+        if isinstance(value, bool) or not isinstance(value, kind) or not abs(value) < 1e9:
+            expected = "a whole number" if kind is Integral else "a number"
+            raise SeedsError(f"{where}: {key}: expected {expected}, found {reprlib.repr(value)}")
+        return value
+
+    def _image(self, name, where):
+        if name not in self._images:
+            path = find_photo(name, self._path, self._photos)
+            if path is None:
+                raise SeedsError(f"{where}: photo {name} was not given and is not beside the seeds' file")
+            self._images[name] = read_image(path)
+        return self._images[name]
+
+
+def _whole_numbers(name, values, dtype):
+    array = np.asarray(values)
+    if array.size == 0:
+        return array.astype(dtype)
+    if array.dtype.kind not in "iu":
+        raise SeedsError(f"seeds: {name}: expected whole numbers, found {array.dtype}")
+    if dtype == np.uint8 and (array.min() < 0 or array.max() > 255):
+        raise SeedsError(f"seeds: {name}: expected 0 to 255, found {array.min()} to {array.max()}")
+    return array.astype(dtype)

@@ -1,0 +1,1 @@
+"""A virtual laser scanner and a virtual camera, for scans whose true colors are known."""

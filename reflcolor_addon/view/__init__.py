@@ -1,0 +1,1 @@
+"""What an editor shows: framing, picking, color maps, live preview."""

@@ -1,0 +1,172 @@
+"""Colors while seeds are being picked: a coarse result at once, then the full one; only the latest wish counts."""
+
+import threading
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from ..color import colorspaces
+from ..color.colorization import Colorization
+from ..color.colorizer import Colorizer
+from ..color.tone import toned
+from ..errors import Cancelled
+from ..scan.normalization import normalize
+from ..scan.scan import Scan
+from ..seeds.seeds import Seeds
+
+# The coarse result has about this many pixels; a scan that has few more is colorized at once.
+COARSE_PIXELS = 60_000
+
+
+@dataclass(frozen=True, eq=False)
+class LiveResult:
+    """What became of one wish.
+
+    Parameters
+    ----------
+    number : int
+        Of the wish, counted from 1.
+    rgb : (H, W, 3) uint8
+        Colors of every pixel; the gray of the reflectance where there is none. None if ``error`` is given.
+    prepared : object
+        What ``prepare`` made of ``rgb``.
+    colorization : Colorization or None
+        The full result; None while it is coarse.
+    error : Exception or None
+    """
+
+    number: int
+    rgb: np.ndarray | None = None
+    prepared: object = None
+    colorization: Colorization | None = None
+    error: Exception | None = None
+
+
+class LiveColorizer:
+    """Colorizes a scan again and again in a thread of its own.
+
+    ``wish(seeds, settings)`` returns at once and makes void whatever was wished before; ``take()`` returns what is
+    there by now. The thread ends with ``stop()``.
+
+    Parameters
+    ----------
+    read_scan : callable
+        Called without arguments in the thread; returns the Scan.
+    prepare : callable, optional
+        Called in the thread with the colors of every result, to make of them what showing them needs.
+    arrived : callable, optional
+        Called in the thread whenever there is something to take.
+    """
+
+    def __init__(self, read_scan, *, prepare=None, arrived=None):
+        self._read_scan, self._prepare = read_scan, prepare or (lambda rgb: None)
+        self._arrived = arrived or (lambda: None)
+        self._condition = threading.Condition()
+        self._wish = self._result = None
+        self._number = 0
+        self._stopped = False
+        self._thread = threading.Thread(target=self._run, name="reflcolor live", daemon=True)
+        self._thread.start()
+
+    def wish(self, seeds, settings):
+        """Ask for the colors that these Seeds give with these Settings; return the number of the wish."""
+        with self._condition:
+            self._number += 1
+            self._wish = self._number, seeds, settings
+            self._condition.notify()
+            return self._number
+
+    def take(self):
+        """Return the newest LiveResult that was not taken yet; None if there is none."""
+        with self._condition:
+            result, self._result = self._result, None
+            return result
+
+    @property
+    def latest(self):
+        """The number of the latest wish; 0 before the first."""
+        return self._number
+
+    def stop(self, *, wait=True):
+        """End the thread; with ``wait``, return when it has ended, else it ends by itself, soon."""
+        with self._condition:
+            self._stopped = True
+            self._condition.notify()
+        if wait:
+            self._thread.join()
+
+    def _run(self):
+        scan = None
+        while True:
+            with self._condition:
+                self._condition.wait_for(lambda: self._stopped or self._wish is not None)
+                if self._stopped:
+                    return
+                (number, seeds, settings), self._wish = self._wish, None
+            try:
+                if scan is None:
+                    scan = _LiveScan(self._read_scan())
+                self._colorize(scan, number, seeds, settings)
+            except Cancelled:
+                continue
+            except Exception as error:  # bad input, or a defect: the window tells it apart
+                self._deliver(LiveResult(number, error=error))
+
+    def _colorize(self, scan, number, seeds, settings):
+        # A coarse result is quick and always finished: while a seed is dragged there is a new wish all the time.
+        rgb = scan.coarse(seeds, settings, lambda: self._stopped)
+        if rgb is not None:
+            self._deliver(LiveResult(number, rgb, self._prepare(rgb)))
+        if len(seeds):
+            found = scan.full(seeds, settings, lambda: self._stopped or self._wish is not None)
+            self._deliver(LiveResult(number, found.rgb, self._prepare(found.rgb), found))
+
+    def _deliver(self, result):
+        with self._condition:
+            if self._stopped:
+                return
+            self._result = result
+        self._arrived()
+
+
+class _LiveScan:
+    """A scan with its two colorizers: of all its pixels, and of one in so many."""
+
+    def __init__(self, scan):
+        self._scan = scan
+        self._luminance, _ = normalize(scan.reflectance, scan.valid)
+        self._stride = int(np.ceil(np.sqrt(scan.valid.size / COARSE_PIXELS)))
+        self._fine = self._coarse = None
+
+    def full(self, seeds, settings, cancelled):
+        """Return the Colorization of all pixels."""
+        if self._fine is None:
+            self._fine = Colorizer(self._scan, settings)
+        return self._fine.colorize(seeds, settings, cancelled=cancelled)
+
+    def coarse(self, seeds, settings, cancelled):
+        """Return colors of all pixels by the chrominance of a few; None where that is no gain. Gray without seeds."""
+        if len(seeds) == 0:
+            return np.repeat(np.rint(toned(self._luminance, settings.tone)).astype(np.uint8)[..., None], 3, axis=-1)
+        if self._stride == 1 or (self._coarse is None and not self._scan.valid[:: self._stride, :: self._stride].any()):
+            return None
+        if self._coarse is None:
+            self._coarse = Colorizer(self._fewer_pixels(), settings)
+        rows, cols = seeds.rows // self._stride, seeds.cols // self._stride
+        found = self._coarse.colorize(Seeds(rows, cols, seeds.rgb), settings, cancelled=cancelled)
+        chroma = colorspaces.chrominance(found.rgb, settings.color_space).astype(np.float32)
+        chroma[found.nearest_seed < 0] = 0
+        height, width = self._scan.shape
+        enlarged = cv2.resize(chroma, None, fx=self._stride, fy=self._stride, interpolation=cv2.INTER_LINEAR)
+        luminance = toned(self._luminance, settings.tone)
+        rgb = colorspaces.merge(luminance, enlarged[:height, :width], settings.color_space)
+        rgb[~self._scan.valid] = 0
+        return rgb
+
+    def _fewer_pixels(self):
+        kept = np.s_[:: self._stride, :: self._stride]
+        scan = self._scan
+        return Scan(
+            name=scan.name, points=scan.points[kept], reflectance=scan.reflectance[kept], valid=scan.valid[kept]
+        )

@@ -1,0 +1,131 @@
+"""The rooms of the house: which may import which, and that no import leads in a circle (docs/architecture.md)."""
+
+import ast
+from functools import cache
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+CORE = "reflcolor_addon"
+# Modules of the core's ground floor, which every room may import.
+GROUND = {"errors", "progress", "settings", "srgb", "version"}
+# What each room may import besides itself and the ground floor. Data walks from the top of this list to its end.
+ROOMS = {
+    "scan": set(),
+    "files": {"scan"},
+    "seeds": {"scan", "files"},
+    "geodesic": {"scan"},
+    "color": {"scan", "files", "seeds", "geodesic"},
+    "matching": {"scan", "files", "seeds", "color"},
+    "simulation": {"scan", "color"},
+    "report": {"scan", "files", "seeds", "color"},
+    "view": {"scan", "seeds", "color"},
+    "batch": {"scan", "files", "seeds", "geodesic", "color", "matching", "report"},
+    "cli": {"scan", "files", "seeds", "color", "matching", "simulation", "report", "batch"},
+}
+# The same for what ties the core to Blender; each may use all of the core.
+BLENDER_ROOMS = {
+    "operators.scene": set(),
+    "operators.window": {"operators.scene"},
+    "operators.overlays": {"operators.scene", "operators.window"},
+    "operators": {"operators.scene", "operators.overlays", "operators.window"},
+    "panels": {"operators", "operators.scene", "operators.overlays", "operators.window"},
+}
+
+
+def _module_name(path):
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+@cache
+def _modules():
+    paths = [path for folder in (CORE, "operators", "panels") for path in sorted((ROOT / folder).rglob("*.py"))]
+    return {_module_name(path): path for path in paths}
+
+
+@cache
+def _imports(module, *, lazy):
+    """Modules of the project that a module imports, with or without the imports inside its functions."""
+    path = _modules()[module]
+    tree = ast.parse(path.read_text("utf-8"))
+    inside = {
+        node
+        for function in ast.walk(tree)
+        if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+        for node in ast.walk(function)
+    }
+    package = module.split(".") if path.name == "__init__.py" else module.split(".")[:-1]
+    found = set()
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.ImportFrom) or node.level == 0 or (node in inside and not lazy):
+            continue
+        base = package[: len(package) - node.level + 1] + (node.module.split(".") if node.module else [])
+        for alias in node.names:
+            whole = ".".join([*base, alias.name])
+            found.add(whole if whole in _modules() else ".".join(base))
+    return found
+
+
+def _room(module):
+    parts = module.split(".")
+    if parts[0] == CORE:
+        return parts[1] if len(parts) > 1 else CORE
+    return ".".join(parts[:2]) if parts[0] == "operators" and ".".join(parts[:2]) in BLENDER_ROOMS else parts[0]
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_of_the_core_imports_only_the_rooms_below_it(room):
+    allowed = ROOMS[room] | GROUND | {room}
+    wrong = {
+        (module, other)
+        for module in _modules()
+        if module.startswith(f"{CORE}.{room}.") or module == f"{CORE}.{room}"
+        for other in _imports(module, lazy=True)
+        if _room(other) not in allowed
+    }
+    assert not wrong
+
+
+@pytest.mark.parametrize("room", BLENDER_ROOMS)
+def test_a_room_of_blender_imports_only_the_core_and_the_rooms_below_it(room):
+    allowed = BLENDER_ROOMS[room] | {room, CORE}
+    wrong = {
+        (module, other)
+        for module in _modules()
+        if not module.startswith(CORE) and _room(module) == room
+        for other in _imports(module, lazy=True)
+        if not other.startswith(CORE) and _room(other) not in allowed
+    }
+    assert not wrong
+
+
+def test_every_module_of_the_core_is_in_a_room():
+    homeless = {module for module in _modules() if module.startswith(f"{CORE}.") and _room(module) not in ROOMS}
+    assert homeless == {f"{CORE}.{name}" for name in GROUND} | {f"{CORE}.__main__"}
+
+
+def test_the_core_never_imports_blender():
+    for module, path in _modules().items():
+        if module.startswith(CORE):
+            names = {
+                name.split(".")[0]
+                for node in ast.walk(ast.parse(path.read_text("utf-8")))
+                for name in (
+                    [alias.name for alias in node.names]
+                    if isinstance(node, ast.Import)
+                    else [node.module or ""]
+                    if isinstance(node, ast.ImportFrom)
+                    else []
+                )
+            }
+            assert not names & {"bpy", "bl_ui", "bpy_extras", "mathutils", "gpu", "gpu_extras", "blf"}, module
+
+
+@pytest.mark.parametrize("lazy", [False, True], ids=["at import", "inside functions, too"])
+def test_no_import_leads_in_a_circle(lazy):
+    # static_order raises CycleError, which names the circle.
+    graph = {module: _imports(module, lazy=lazy) - {module} for module in _modules()}
+    assert set(TopologicalSorter(graph).static_order()) >= set(graph)
