@@ -2,11 +2,30 @@
 
 Every message is one line: the file or thing, the place in it, what was found, what was expected, what to do.
 Anything that is not one of these is a defect of the package and surfaces with its traceback.
+
+    raise ScanError("{file}: line {line}: expected 4 or 7 values, found {count}", file=path.name, line=12, count=5)
 """
+
+from .messages import Message
 
 
 class ReflcolorError(ValueError):
-    """Base of everything that bad input can cause."""
+    """Base of everything that bad input can cause.
+
+    Parameters
+    ----------
+    template : str
+        English, with named places for the values; see `Message`.
+    **values
+
+    Attributes
+    ----------
+    message : Message
+    """
+
+    def __init__(self, template, /, **values):
+        self.message = template if isinstance(template, Message) and not values else Message(template, **values)
+        super().__init__(self.message)
 
 
 class ScanError(ReflcolorError):
@@ -34,4 +53,8 @@ class Cancelled(Exception):
 
 
 class UsageError(Exception):
-    """A command was given in a way that cannot mean anything."""
+    """A command was given in a way that cannot mean anything; takes what `ReflcolorError` takes."""
+
+    def __init__(self, template, /, **values):
+        self.message = template if isinstance(template, Message) and not values else Message(template, **values)
+        super().__init__(self.message)

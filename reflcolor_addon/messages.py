@@ -1,0 +1,60 @@
+"""Texts for people as data: a template and its values stay apart until shown, so that they can be translated."""
+
+
+class Message(str):
+    """A line of text that remembers what it was made of.
+
+    It is an ordinary ``str`` in English. Whoever shows it in another language looks up ``template`` and fills in
+    ``values`` again; see `translated`.
+
+    Parameters
+    ----------
+    template : str
+        English, with named places as in ``"{file}: line {line}: expected a number"``. Without values it is taken as it
+        is, braces included.
+    **values
+        What is put in the places; a value may be a Message itself.
+
+    Attributes
+    ----------
+    template : str
+    values : dict of str to object
+
+    Examples
+    --------
+    >>> line = Message("{file}: line {line}: expected a number", file="garage.ptx", line=12)
+    >>> print(line)
+    garage.ptx: line 12: expected a number
+    >>> line.values["line"]
+    12
+    """
+
+    __slots__ = ("template", "values")
+
+    def __new__(cls, template, /, **values):
+        message = super().__new__(cls, template.format(**values) if values else template)
+        message.template = template
+        message.values = values
+        return message
+
+
+def translated(text, look_up):
+    """Return a text in another language.
+
+    Parameters
+    ----------
+    text : str or Message
+    look_up : callable
+        Takes an English template and returns it in the other language, with the same named places.
+
+    Returns
+    -------
+    str
+    """
+    if not isinstance(text, Message):
+        return look_up(text)
+    values = {
+        name: translated(value, look_up) if isinstance(value, Message) else value for name, value in text.values.items()
+    }
+    template = look_up(text.template)
+    return template.format(**values) if values else template

@@ -1,0 +1,54 @@
+"""Messages keep their template and values apart from the text."""
+
+import copy
+import json
+
+from reflcolor_addon.errors import ScanError
+from reflcolor_addon.messages import Message, translated
+
+GERMAN = {
+    "{file}: line {line}: expected a number": "{file}: Zeile {line}: eine Zahl wird erwartet",
+    "{scan}: {problem}": "{scan}: {problem}",
+    "no return": "kein Echo",
+}
+
+
+def german(text):
+    return translated(text, lambda template: GERMAN.get(template, template))
+
+
+def test_a_message_is_its_english_text():
+    message = Message("{file}: line {line}: expected a number", file="a.ptx", line=3)
+    assert message == "a.ptx: line 3: expected a number"
+    assert json.dumps([message]) == '["a.ptx: line 3: expected a number"]'
+
+
+def test_a_text_without_values_is_taken_as_it_is():
+    assert Message("{scan} is a placeholder") == "{scan} is a placeholder"
+    assert german(Message("{scan} is a placeholder")) == "{scan} is a placeholder"
+
+
+def test_values_with_braces_are_left_alone():
+    message = Message("{scan}: {problem}", scan="{0} {wall}", problem=Message("no return"))
+    assert message == "{0} {wall}: no return"
+    assert german(message) == "{0} {wall}: kein Echo"
+
+
+def test_a_message_inside_a_message_is_translated_too():
+    inner = Message("{file}: line {line}: expected a number", file="a.ptx", line=3)
+    assert german(Message("{scan}: {problem}", scan="wall", problem=inner)) == (
+        "wall: a.ptx: Zeile 3: eine Zahl wird erwartet"
+    )
+
+
+def test_an_error_carries_its_message():
+    error = ScanError("{file}: line {line}: expected a number", file="a.ptx", line=3)
+    assert str(error) == "a.ptx: line 3: expected a number"
+    assert error.message.values == {"file": "a.ptx", "line": 3}
+    assert ScanError(error.message).message is error.message
+
+
+def test_a_copy_keeps_template_and_values():
+    message = copy.deepcopy(Message("{file}: line {line}: expected a number", file="a.ptx", line=3))
+    assert message.template.startswith("{file}")
+    assert message.values["line"] == 3
