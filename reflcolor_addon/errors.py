@@ -23,7 +23,7 @@ class ReflcolorError(ValueError):
     message : Message
     """
 
-    def __init__(self, template, /, **values):
+    def __init__(self, template="", /, **values):
         self.message = template if isinstance(template, Message) and not values else Message(template, **values)
         super().__init__(self.message)
 
@@ -55,6 +55,6 @@ class Cancelled(Exception):
 class UsageError(Exception):
     """A command was given in a way that cannot mean anything; takes what `ReflcolorError` takes."""
 
-    def __init__(self, template, /, **values):
+    def __init__(self, template="", /, **values):
         self.message = template if isinstance(template, Message) and not values else Message(template, **values)
         super().__init__(self.message)
