@@ -3,7 +3,7 @@
 import bpy
 from bl_operators.presets import AddPresetBase
 
-from .scene.properties import COLORIZE_NAMES, MATCH_NAMES
+from .scene.setting_properties import COLORIZE_NAMES, MATCH_NAMES
 
 
 class _AddPreset(AddPresetBase):

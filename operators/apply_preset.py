@@ -4,13 +4,8 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..reflcolor_addon.settings import PRESETS, Settings
-from .scene.properties import take_over
+from .scene.setting_properties import take_over
 from .scene.texts import tip
-
-_DESCRIPTIONS = {
-    "Paper": "The method as published",
-    "Enhanced": "What measured best on real scans: smoothed reflectance, fewer seeds per pixel, kriging",
-}
 
 
 class REFLCOLOR_OT_apply_preset(bpy.types.Operator):
@@ -23,18 +18,16 @@ class REFLCOLOR_OT_apply_preset(bpy.types.Operator):
     preset: EnumProperty(
         name="Preset",
         description="Which settings to take over",
-        items=tuple((name, name, _DESCRIPTIONS[name]) for name in PRESETS),
+        items=tuple((name, name, preset.help) for name, preset in PRESETS.items()),
     )
 
     @classmethod
     def description(cls, _context, properties):
         """Tell of a button what its own preset is."""
-        return tip(_DESCRIPTIONS[properties.preset])
+        return tip(PRESETS[properties.preset].help)
 
     def execute(self, context):
-        settings = context.scene.reflcolor
-        # How light the colors are is the scan's matter, not the method's.
-        take_over(settings, Settings.preset(self.preset, tone=settings.tone))
+        take_over(context.scene.reflcolor, Settings.preset(self.preset))
         return {"FINISHED"}
 
 

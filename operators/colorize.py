@@ -7,10 +7,10 @@ from ..reflcolor_addon.progress import in_turn
 from .scene import polls
 from .scene.colorized_object import show_colorization
 from .scene.notices import tell, tell_together
-from .scene.properties import COLORIZE_NAMES, ColorizeSettings, core_settings
 from .scene.provenance import record_provenance, window_report
 from .scene.scan_object import grid_indices, scan_reader
 from .scene.seed_list import seeds_of
+from .scene.setting_properties import COLORIZE_NAMES, ColorizeSettings, core_settings
 from .scene.texts import told
 from .window import live_update
 from .window.jobs import JobOperator

@@ -7,10 +7,10 @@ from ..reflcolor_addon.matching import draw_matches, match_site
 from .scene import polls
 from .scene.images import read_pixels, write_image
 from .scene.notices import tell, tell_together
-from .scene.properties import MATCH_NAMES, MatchSettings, core_settings
 from .scene.provenance import record_matching
 from .scene.scan_object import own_image, scan_reader
 from .scene.seed_list import append_seeds, remove_seeds, seeds_of
+from .scene.setting_properties import MATCH_NAMES, MatchSettings, core_settings
 from .scene.texts import told
 from .window.jobs import JobOperator
 

@@ -1,11 +1,15 @@
 """Step 4: colorize, and step 5: compare with the truth."""
 
 from ..operators.scene import polls
+from ..operators.scene.setting_properties import COLORIZE_NAMES
 from ..operators.scene.texts import label
 from ..operators.window import jobs, live_update
 from ..reflcolor_addon.settings import PRESETS
 from .presets import REFLCOLOR_PT_colorize_presets
 from .step import Step, draw_selected, in_both_editors, in_view
+
+# What is shown at once; all other settings are under Advanced.
+_FIRST = ("alpha", "beta", "tone")
 
 
 class Colorize(Step):
@@ -22,9 +26,8 @@ class Colorize(Step):
         for preset in PRESETS:
             row.operator("reflcolor.apply_preset", text=label(preset), translate=False).preset = preset
         column = layout.column()
-        column.prop(settings, "alpha")
-        column.prop(settings, "beta")
-        column.prop(settings, "tone")
+        for name in _FIRST:
+            column.prop(settings, name)
         job = jobs.running()
         if job is not None:
             layout.progress(
@@ -60,13 +63,11 @@ class Advanced(Step):
 
     def draw_step(self, context, layout, _obj):
         settings = context.scene.reflcolor
-        layout.prop(settings, "color_space")
-        layout.row().prop(settings, "neighbors", expand=True)
-        layout.prop(settings, "blend")
-        if settings.blend == "nearest":
-            layout.prop(settings, "nearest")
-        layout.prop(settings, "smoothing")
-        layout.prop(settings, "kriging")
+        for name in COLORIZE_NAMES:
+            if name == "neighbors":
+                layout.row().prop(settings, name, expand=True)
+            elif name not in _FIRST and (name != "nearest" or settings.blend == "nearest"):
+                layout.prop(settings, name)
 
 
 class Evaluate(Step):

@@ -1,20 +1,16 @@
-"""What a person can choose about a colorization."""
+"""What a person can choose about a colorization: each setting is declared here, and nowhere else.
 
-import math
+The panel, the command line and docs/settings.md are made from these declarations.
+"""
+
 from dataclasses import dataclass, fields, replace
-from numbers import Integral, Real
+from inspect import cleandoc
 
+from .declaration import Choice, parameter_lines, setting, settings_of
 from .errors import SettingsError
+from .messages import Message
 
-COLOR_SPACES = ("ycbcr", "yuv", "lalphabeta", "cielab")
-NEIGHBORS = (4, 8)
-ALPHA_RANGE = (0.1, 64.0)
-BETA_RANGE = (0.0, 1e6)
-MATCHINGS = ("verified", "paper")
-MAX_NEAREST = 1024
-MAX_SMOOTHING = 16.0
-TONE_RANGE = (0.2, 5.0)
-PRESETS = {"Paper": {}, "Enhanced": {"alpha": 3.0, "nearest": 8, "smoothing": 1.0, "kriging": 0.6}}
+PROPAGATION, MATCHING = "propagation", "matching"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,36 +19,7 @@ class Settings:
 
     Parameters
     ----------
-    alpha : float, 0.1 to 64
-        Gain of the weights, w = r^-alpha (eq. 2): higher means sharper borders between seeds.
-    beta : float, 0 to 1e6
-        Gain of the range image in a step (eq. 6); 0 leaves the range out (Yatziv's method, eq. 4).
-    color_space : {"ycbcr", "yuv", "lalphabeta", "cielab"}
-        Where the two chrominance channels are blended.
-    neighbors : {4, 8}
-        Which pixels a path may step to.
-    nearest : int, "auto" or None
-        How many of its nearest seeds color a pixel; None: all of them, as eq. 1 has it; "auto": all of them where
-        that is quick, else as many as it takes to be close to that (see ``Colorization.method``).
-    smoothing : float, 0 to 16
-        Standard deviation, in pixels, of a Gaussian that the reflectance is smoothed by before anything is measured on
-        it; the luminance of the result is not smoothed. The paper has none.
-    kriging : float, 0 to 1
-        Share of kriging (see ``kriging.py``) in the chrominance; the rest is eq. 1. The paper has none.
-    tone : float, 0.2 to 5
-        Gamma of the luminance of the result: above 1 it is lighter, below 1 darker, 1 is the reflectance as it is. No
-        distance and no chrominance depends on it.
-    matching : {"verified", "paper"}
-        How seeds are found in photos: by a camera that is verified, or as published, by the most similar superpixels.
-    slic_segments : int, 1 to 20000
-        About how many superpixels the scan, and each photo, is divided into; there is at most one seed in each.
-    slic_compactness : float, 0.001 to 100
-        Higher makes them squarer.
-    slic_sigma : float, 0 to 20
-        Pixels by which the image is smoothed before.
-    hog_cell, hog_block, hog_orientations, hog_window : int
-        Of the descriptor: pixels a cell (2 to 64), cells a block (1 to 8), directions (2 to 36), and pixels of the
-        window around a superpixel's center (at least a block, up to 256).
+    {parameters}
 
     Raises
     ------
@@ -60,57 +27,185 @@ class Settings:
         If a value is out of its range.
     """
 
-    alpha: float = 6.0
-    beta: float = 1.0
-    color_space: str = "ycbcr"
-    neighbors: int = 8
-    nearest: int | str | None = None
-    smoothing: float = 0.0
-    kriging: float = 0.0
-    tone: float = 1.0
-    matching: str = "verified"
-    slic_segments: int = 500
-    slic_compactness: float = 0.1
-    slic_sigma: float = 1.0
-    hog_cell: int = 8
-    hog_block: int = 2
-    hog_orientations: int = 9
-    hog_window: int = 48
+    alpha: float = setting(
+        6.0,
+        group=PROPAGATION,
+        kind=float,
+        low=0.1,
+        high=64,
+        slider_high=12,
+        label="Alpha",
+        help="How fast a seed's influence falls with the geodesic distance; higher makes borders sharper",
+    )
+    beta: float = setting(
+        1.0,
+        group=PROPAGATION,
+        kind=float,
+        low=0,
+        high=1e6,
+        slider_high=10,
+        label="Beta",
+        help="How strongly steps in range hold colors back; 0 looks at the reflectance alone (Yatziv)",
+    )
+    color_space: str = setting(
+        "ycbcr",
+        group=PROPAGATION,
+        label="Color Space",
+        help="Where the two chrominance channels are blended",
+        choices=(
+            Choice("ycbcr", "YCbCr", "Luminance and two color differences, ITU-R BT.601; the paper's choice"),
+            Choice("yuv", "YUV", "Luminance and two color differences, as in analog television"),
+            Choice("lalphabeta", "L-Alpha-Beta", "Logarithms of cone responses, decorrelated over natural images"),
+            Choice("cielab", "CIELAB", "Perceptual lightness and two opponent colors"),
+        ),
+    )
+    neighbors: int = setting(
+        8,
+        group=PROPAGATION,
+        label="Neighbors",
+        help="Which pixels a path may step to",
+        choices=(
+            Choice(4, "4", "Paths step to the pixels above, below, left and right"),
+            Choice(8, "8", "Paths step diagonally too"),
+        ),
+    )
+    nearest: int | str | None = setting(
+        None,
+        group=PROPAGATION,
+        kind=int,
+        low=1,
+        high=1024,
+        slider_high=64,
+        label="Nearest Seeds",
+        help="How many of its nearest seeds color a pixel",
+        choices=(
+            Choice(
+                "auto",
+                "Automatic",
+                "All seeds where that takes about two seconds, else as many as it takes to be close to that",
+            ),
+            Choice(None, "All Seeds", "Every seed colors every pixel, as the paper has it", name="all"),
+        ),
+    )
+    smoothing: float = setting(
+        0.0,
+        group=PROPAGATION,
+        kind=float,
+        low=0,
+        high=16,
+        slider_high=4,
+        unit="pixels",
+        label="Smoothing",
+        help="Pixels by which the reflectance is smoothed before distances are measured on it; not in the paper",
+    )
+    kriging: float = setting(
+        0.0,
+        group=PROPAGATION,
+        kind=float,
+        low=0,
+        high=1,
+        unit="share",
+        label="Kriging",
+        help="Share of a statistical estimate from position, surface and reflectance; not in the paper",
+    )
+    tone: float = setting(
+        1.0,
+        group=PROPAGATION,
+        kind=float,
+        low=0.2,
+        high=5,
+        slider_step=0.1,
+        label="Tone",
+        help="Above 1 the colors are lighter, below 1 darker; 1 is as light as the reflectance",
+        # How light the colors are is the scan's matter, not the method's.
+        in_presets=False,
+    )
+    matching: str = setting(
+        "verified",
+        group=MATCHING,
+        label="Matching",
+        help="How seeds are found in photos",
+        choices=(
+            Choice(
+                "verified", "Verified", "By each photo's camera, accepted only if it stands a test; else by appearance"
+            ),
+            Choice("paper", "Paper", "By the most similar superpixels, as published; often wrong on real scans"),
+        ),
+    )
+    slic_segments: int = setting(
+        500,
+        group=MATCHING,
+        kind=int,
+        low=1,
+        high=20_000,
+        slider_high=2000,
+        label="Superpixels",
+        help="Superpixels that the scan, and each photo, is divided into; there is one seed in each at most",
+    )
+    slic_compactness: float = setting(
+        0.1,
+        group=MATCHING,
+        kind=float,
+        low=0.001,
+        high=100,
+        decimals=3,
+        label="Compactness",
+        help="How square superpixels are; less lets them follow edges",
+    )
+    slic_sigma: float = setting(
+        1.0,
+        group=MATCHING,
+        kind=float,
+        low=0,
+        high=20,
+        unit="pixels",
+        label="Sigma",
+        help="Pixels by which the image is smoothed before it is divided",
+    )
+    hog_cell: int = setting(
+        8,
+        group=MATCHING,
+        kind=int,
+        low=2,
+        high=64,
+        unit="pixels",
+        label="Cell",
+        help="Pixels of a cell of the descriptor",
+    )
+    hog_block: int = setting(
+        2, group=MATCHING, kind=int, low=1, high=8, label="Block", help="Cells of a block of the descriptor"
+    )
+    hog_orientations: int = setting(
+        9,
+        group=MATCHING,
+        kind=int,
+        low=2,
+        high=36,
+        label="Orientations",
+        help="Directions that the descriptor tells apart",
+    )
+    hog_window: int = setting(
+        48,
+        group=MATCHING,
+        kind=int,
+        low=2,
+        high=256,
+        unit="pixels",
+        label="Window",
+        help="Pixels of the descriptor's window around a superpixel's center",
+    )
 
     def __post_init__(self):
-        _check_range("alpha", self.alpha, ALPHA_RANGE)
-        _check_range("beta", self.beta, BETA_RANGE)
-        if self.color_space not in COLOR_SPACES:
-            raise SettingsError(f"color_space: expected one of {', '.join(COLOR_SPACES)}, found {self.color_space!r}")
-        if self.neighbors not in NEIGHBORS:
-            raise SettingsError(f"neighbors: expected 4 or 8, found {self.neighbors!r}")
-        whole = isinstance(self.nearest, Integral) and not isinstance(self.nearest, bool)
-        if self.nearest not in (None, "auto") and not (whole and 1 <= self.nearest <= MAX_NEAREST):
+        for name, declared in SETTINGS.items():
+            declared.check(getattr(self, name))
+        least = self.hog_cell * self.hog_block
+        if self.hog_window < least:
             raise SettingsError(
-                f'nearest: expected a whole number from 1 to {MAX_NEAREST}, "auto", or None for all, '
-                f"found {self.nearest!r}"
+                "{setting}: expected at least a block, which is hog_cell x hog_block = {least} pixels, found {found}",
+                setting="hog_window",
+                least=least,
+                found=self.hog_window,
             )
-        _check_range("smoothing", self.smoothing, (0.0, MAX_SMOOTHING))
-        _check_range("kriging", self.kriging, (0.0, 1.0))
-        _check_range("tone", self.tone, TONE_RANGE)
-        self._check_matching()
-
-    def _check_matching(self):
-        if self.matching not in MATCHINGS:
-            raise SettingsError(f"matching: expected one of {', '.join(MATCHINGS)}, found {self.matching!r}")
-        _check_range("slic_compactness", self.slic_compactness, (0.001, 100.0))
-        _check_range("slic_sigma", self.slic_sigma, (0.0, 20.0))
-        least_window = self.hog_cell * self.hog_block if _is_whole(self.hog_cell) and _is_whole(self.hog_block) else 2
-        for name, low, high in (
-            ("slic_segments", 1, 20_000),
-            ("hog_cell", 2, 64),
-            ("hog_block", 1, 8),
-            ("hog_orientations", 2, 36),
-            ("hog_window", least_window, 256),
-        ):
-            value = getattr(self, name)
-            if not (_is_whole(value) and low <= value <= high):
-                raise SettingsError(f"{name}: expected a whole number from {low} to {high}, found {value!r}")
 
     @classmethod
     def preset(cls, name, **changes):
@@ -122,20 +217,46 @@ class Settings:
             If there is no preset of that name.
         """
         if name not in PRESETS:
-            raise SettingsError(f"preset: expected one of {', '.join(PRESETS)}, found {name!r}")
-        return replace(cls(**PRESETS[name]), **changes)
+            raise SettingsError(
+                "{setting}: expected {expected}, found {found!r}",
+                setting="preset",
+                expected=Message("one of {choices}", choices=", ".join(PRESETS)),
+                found=name,
+            )
+        return replace(cls(**PRESETS[name].values), **changes)
 
     def as_dict(self):
         """Return name and value of every setting, in order, as they go into a report."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-def _check_range(name, value, bounds):
-    low, high = bounds
-    number = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
-    if not number or not low <= value <= high:
-        raise SettingsError(f"{name}: expected a number from {low:g} to {high:g}, found {value!r}")
+SETTINGS = settings_of(Settings)
+if Settings.__doc__:  # not with python -OO
+    Settings.__doc__ = cleandoc(Settings.__doc__).replace("{parameters}", parameter_lines(SETTINGS.values()))
 
 
-def _is_whole(value):
-    return isinstance(value, Integral) and not isinstance(value, bool)
+@dataclass(frozen=True)
+class Preset:
+    """Settings under a name.
+
+    Parameters
+    ----------
+    help : str
+        What they are for, as a tooltip.
+    values : dict
+        What is not the default.
+    """
+
+    help: str
+    values: dict
+
+
+PRESETS = {
+    "Paper": Preset("The method as published", {}),
+    "Enhanced": Preset(
+        "What measured best on real scans: smoothed reflectance, fewer seeds per pixel, kriging",
+        {"alpha": 3.0, "nearest": 8, "smoothing": 1.0, "kriging": 0.6},
+    ),
+}
+DEFAULT_PRESET = "Paper"
+"""Where the window and the command line start from."""

@@ -18,7 +18,7 @@ from reflcolor_addon.geodesic.distances import geodesic_distances
 from reflcolor_addon.geodesic.engines import engine_for
 from reflcolor_addon.geodesic.graph import PixelGraph
 from reflcolor_addon.scan.normalization import normalize
-from reflcolor_addon.settings import COLOR_SPACES
+from reflcolor_addon.settings import SETTINGS
 
 # Paths of up to 54 steps in float32.
 FLOAT32 = 4e-6
@@ -116,7 +116,7 @@ def test_the_blend_equals_the_reference_whatever_the_distances(fields, alpha):
     assert (mean.nearest_seed == np.where(reached, fields.argmin(axis=0), -1)).all()
 
 
-@pytest.mark.parametrize("space", COLOR_SPACES)
+@pytest.mark.parametrize("space", [choice.value for choice in SETTINGS["color_space"].choices])
 @given(
     grid=grids(widths=st.integers(1, 4) | st.integers(8, 11)),
     data=st.data(),

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from reflcolor_addon.color import colorspaces
-from reflcolor_addon.settings import COLOR_SPACES
+from reflcolor_addon.settings import SETTINGS
 
 GRAYS = np.arange(256)
 CUBE = np.stack(np.meshgrid(*[np.linspace(0, 255, 18).round()] * 3), axis=-1).reshape(1, -1, 3)
-every_space = pytest.mark.parametrize("space", COLOR_SPACES)
+every_space = pytest.mark.parametrize("space", [choice.value for choice in SETTINGS["color_space"].choices])
 
 
 def luminance_as_gray(rgb, space):

@@ -2,9 +2,12 @@
 
 import dataclasses
 
+import numpy as np
 import pytest
+import settings_page
 
 from reflcolor_addon import ReflcolorError, Settings, SettingsError
+from reflcolor_addon.settings import SETTINGS
 
 
 def test_the_defaults_are_those_of_the_paper():
@@ -66,3 +69,25 @@ def test_an_unknown_preset_is_refused_with_the_names_there_are():
 
 def test_as_dict_holds_every_setting_in_order():
     assert list(Settings().as_dict()) == [field.name for field in dataclasses.fields(Settings)]
+
+
+@pytest.mark.parametrize("setting", SETTINGS.values(), ids=lambda setting: setting.name)
+def test_a_setting_takes_its_whole_range_and_choices_and_no_more(setting):
+    numbers = [setting.low, setting.high] if setting.kind else []
+    for value in [setting.default, *numbers, *(choice.value for choice in setting.choices)]:
+        setting.check(value)
+        assert setting.named(setting.name_of(value)) == value
+    beyond = [setting.low - 1e-9, setting.high * (1 + 1e-9)] if setting.kind else [6]
+    for value in [*beyond, "poster", [], np.array([1, 2]), object()]:
+        with pytest.raises(SettingsError, match=f"^{setting.name}: expected [^\n]+, found [^\n]+$"):
+            setting.check(value)
+
+
+def test_the_page_of_settings_is_as_the_declarations_are():
+    assert settings_page.PAGE.read_text(encoding="utf-8") == settings_page.page(), "run tools/settings_page.py"
+
+
+def test_the_window_of_the_descriptor_holds_a_block():
+    Settings(hog_cell=16, hog_block=3, hog_window=48)
+    with pytest.raises(SettingsError, match=r"^hog_window: expected at least a block, .* = 64 pixels, found 48$"):
+        Settings(hog_cell=16, hog_block=4, hog_window=48)

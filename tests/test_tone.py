@@ -16,12 +16,14 @@ from benchmarks.real_scans import NAMES, has_truth, load
 from reflcolor_addon import Colorizer, Seeds, Settings, SettingsError, colorize, evaluate, read_scans
 from reflcolor_addon.color.tone import DARK_MEDIAN, LIGHT_MEDIAN, tone_to_try, toned
 from reflcolor_addon.scan.normalization import normalize
-from reflcolor_addon.settings import COLOR_SPACES, PRESETS, TONE_RANGE
+from reflcolor_addon.settings import PRESETS, SETTINGS
 from reflcolor_addon.view import live as live_module
 
 LUMA = np.array([0.299, 0.587, 0.114])
 HINT = "the colors are dark because most of the reflectance is; try tone "
-tones = st.floats(*TONE_RANGE)
+TONES = SETTINGS["tone"].low, SETTINGS["tone"].high
+SPACES = [choice.value for choice in SETTINGS["color_space"].choices]
+tones = st.floats(*TONES)
 levels = st.integers(0, 2550).map(lambda level: level / 10)
 images = arrays(np.float32, (3, 5), elements=st.just(0) | st.floats(2**-10, 255, width=32))
 
@@ -73,7 +75,7 @@ def test_presets_leave_the_tone_alone(preset):
     assert Settings.preset(preset, tone=2.0).tone == 2
 
 
-@pytest.mark.parametrize("space", COLOR_SPACES)
+@pytest.mark.parametrize("space", SPACES)
 @pytest.mark.parametrize("preset", PRESETS)
 @given(tone=tones)
 def test_only_the_luminance_changes(space, preset, tone):
@@ -137,10 +139,10 @@ def test_another_tone_takes_no_new_paths_and_gives_the_same_bytes_as_anew(preset
 def test_what_is_to_be_tried_is_tried_once(median, tone):
     found = tone_to_try(median, tone)
     if found is None:
-        assert toned(median, tone) >= DARK_MEDIAN or median == 0 or tone >= tone_to_try(median, TONE_RANGE[0])
+        assert toned(median, tone) >= DARK_MEDIAN or median == 0 or tone >= tone_to_try(median, TONES[0])
     else:
-        assert toned(median, tone) < DARK_MEDIAN and tone < found <= TONE_RANGE[1]
-        assert found == TONE_RANGE[1] or toned(median, found) == pytest.approx(LIGHT_MEDIAN, abs=8)
+        assert toned(median, tone) < DARK_MEDIAN and tone < found <= TONES[1]
+        assert found == TONES[1] or toned(median, found) == pytest.approx(LIGHT_MEDIAN, abs=8)
         assert tone_to_try(median, found) is None
 
 

@@ -12,10 +12,10 @@ from ...reflcolor_addon.view.live import LiveColorizer
 from ..scene import polls
 from ..scene.editors import redraw_editors
 from ..scene.images import put_pixels, stored_pixels
-from ..scene.properties import COLORIZE_NAMES, scene_settings
 from ..scene.scan_object import own_image, scan_reader, show_like_reflectance
 from ..scene.seed_arrays import seed_arrays
 from ..scene.seed_list import seeds_of
+from ..scene.setting_properties import COLORIZE_NAMES, scene_settings
 from . import jobs
 
 PREVIEW = "Live Preview"

@@ -166,9 +166,7 @@ _SETTINGS = {
     "How fast a seed's influence falls with the geodesic distance; higher makes borders sharper": (
         "Wie schnell der Einfluss eines Saatpunkts mit der geodätischen Entfernung fällt; höher macht Grenzen schärfer"
     ),
-    "How many of its nearest seeds color a pixel, if Blend is Nearest": (
-        "Wie viele seiner nächsten Saatpunkte ein Pixel färben, wenn die Mischung Nächste ist"
-    ),
+    "How many of its nearest seeds color a pixel": ("Wie viele seiner nächsten Saatpunkte ein Pixel färben"),
     "How seeds are found in photos": "Wie Saatpunkte in Fotos gefunden werden",
     "How square superpixels are; less lets them follow edges": (
         "Wie quadratisch Superpixel sind; weniger lässt sie Kanten folgen"

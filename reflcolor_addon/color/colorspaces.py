@@ -96,7 +96,7 @@ def chrominance(rgb, color_space):
     rgb : (..., 3) array of numbers 0..255
         sRGB.
     color_space : str
-        One of ``settings.COLOR_SPACES``.
+        A choice of the setting ``color_space``.
 
     Returns
     -------
@@ -114,7 +114,7 @@ def merge(gray, chrominance_image, color_space):
     gray : (H, W) float, 0..255
     chrominance_image : (H, W, 2) float
     color_space : str
-        One of ``settings.COLOR_SPACES``.
+        A choice of the setting ``color_space``.
 
     Returns
     -------
@@ -141,7 +141,7 @@ def lost_levels(rgb, chrominance_image, color_space):
     chrominance_image : (H, W, 2) float
         What it was given.
     color_space : str
-        One of ``settings.COLOR_SPACES``.
+        A choice of the setting ``color_space``.
 
     Returns
     -------

@@ -2,7 +2,7 @@
 
 import math
 
-from ..settings import TONE_RANGE
+from ..settings import SETTINGS
 
 # Medians of 0..255: below the first a picture is called dark; the tone to try brings it up to the second. Of the scans
 # with truth an infrared camera's has 6, the others 110 to 144 (docs/quality.md).
@@ -41,5 +41,5 @@ def tone_to_try(median, tone):
     if median <= 0 or toned(median, tone) >= DARK_MEDIAN:
         return None
     wanted = math.log(median / 255) / math.log(LIGHT_MEDIAN / 255)
-    found = min(round(wanted, 1), TONE_RANGE[1])
+    found = min(round(wanted, 1), SETTINGS["tone"].high)
     return found if found > tone else None
