@@ -45,7 +45,7 @@ from . import (
     step_back,
 )
 from .overlays import draw_seeds, wipe, wipe_handle
-from .scene import images, properties
+from .scene import attribute_names, images, properties
 from .window import drop_files, jobs, live_update, pointer, tools
 
 _MODULES = (
@@ -93,7 +93,7 @@ _MODULES = (
     delete_picked,
 )
 # What draws, listens or stands in a toolbar, with register() and unregister() of its own.
-_SERVICES = (draw_seeds, live_update, tools, wipe, wipe_handle)
+_SERVICES = (attribute_names, draw_seeds, live_update, tools, wipe, wipe_handle)
 _undo = []
 
 

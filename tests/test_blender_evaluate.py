@@ -111,7 +111,7 @@ def test_images_of_another_size_or_none_are_one_clear_line(colorized):
 
 def test_a_scan_without_colors_needs_an_image(colorized):
     mesh = colorized.context.active_object.data
-    mesh.color_attributes.remove(mesh.color_attributes["Scanned Color"])
+    mesh.color_attributes.remove(mesh.color_attributes["Scanned_Color"])
     with pytest.raises(RuntimeError, match="the scan came without colors; choose an image"):
         colorized.ops.reflcolor.evaluate()
 

@@ -133,11 +133,11 @@ def test_the_gray_of_the_reflectance_is_seen_at_once(blender, small):
     blender.ops.reflcolor.import_scan(filepath=str(small))
     obj = blender.context.active_object
     attributes = obj.data.color_attributes
-    assert attributes.active_color_name == attributes[attributes.render_color_index].name == "Reflectance Gray"
-    gray = srgb(obj, "Reflectance Gray")
+    assert attributes.active_color_name == attributes[attributes.render_color_index].name == "Reflectance_Gray"
+    gray = srgb(obj, "Reflectance_Gray")
     assert gray[0].max() == 0 and gray[-1].min() == 255 and (np.diff(gray[:, 0].astype(int)) >= 0).all()
     nodes = obj.data.materials[0].node_tree.nodes
-    assert [node.layer_name for node in nodes if node.type == "VERTEX_COLOR"] == ["Reflectance Gray"]
+    assert [node.layer_name for node in nodes if node.type == "VERTEX_COLOR"] == ["Reflectance_Gray"]
 
 
 def test_reflectance_and_range_images_stay_in_the_file(blender, small, tmp_path):
@@ -250,4 +250,4 @@ def test_the_scans_own_color_comes_along(blender, tmp_path):
     color = np.random.default_rng(1).integers(0, 256, (6, 10, 3), np.uint8)
     path = write_small_ptx(tmp_path / "colored.ptx", replace(scan, color=color))
     blender.ops.reflcolor.import_scan(filepath=str(path))
-    np.testing.assert_array_equal(srgb(blender.context.active_object, "Scanned Color"), color.reshape(-1, 3))
+    np.testing.assert_array_equal(srgb(blender.context.active_object, "Scanned_Color"), color.reshape(-1, 3))

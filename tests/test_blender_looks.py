@@ -14,10 +14,10 @@ from reflcolor_addon.view.colormaps import UNKNOWN, limits_of, painted, region_c
 
 SEEDS = Seeds([0, 5, 3], [0, 9, 3], np.array([[200, 80, 40], [20, 90, 220], [90, 200, 60]], np.uint8))
 MAPS = {
-    "confidence": "Confidence Map",
-    "nearest_seed": "Nearest Seed Map",
-    "range": "Range Map",
-    "error": "Error Map",
+    "confidence": "Confidence_Map",
+    "nearest_seed": "Nearest_Seed_Map",
+    "range": "Range_Map",
+    "error": "Error_Map",
 }
 
 
@@ -92,7 +92,7 @@ def test_regions_have_colors_of_their_own(colorized):
     colorized.ops.reflcolor.show_look(look="nearest_seed")
     obj = colorized.context.active_object
     expected = region_colors(values(obj, "nearest_seed", np.int32))
-    np.testing.assert_array_equal(srgb(obj, "Nearest Seed Map"), expected)
+    np.testing.assert_array_equal(srgb(obj, "Nearest_Seed_Map"), expected)
 
 
 def test_where_no_truth_is_known_the_error_is_gray(colorized):
@@ -100,7 +100,7 @@ def test_where_no_truth_is_known_the_error_is_gray(colorized):
     obj = colorized.context.active_object
     unknown = values(obj, "error") < 0
     assert unknown.sum() == 1
-    assert tuple(srgb(obj, "Error Map")[unknown][0]) == UNKNOWN
+    assert tuple(srgb(obj, "Error_Map")[unknown][0]) == UNKNOWN
 
 
 @pytest.mark.parametrize("look", [*MAPS, "scanned"])
@@ -113,7 +113,7 @@ def test_looking_changes_neither_renders_nor_materials(colorized, look):
     assert [node.layer_name for node in nodes if node.type == "VERTEX_COLOR"] == ["Colorized"]
 
 
-@pytest.mark.parametrize(("look", "name"), [("gray", "Reflectance Gray"), ("colorized", "Colorized")])
+@pytest.mark.parametrize(("look", "name"), [("gray", "Reflectance_Gray"), ("colorized", "Colorized")])
 def test_gray_and_colorized_go_to_renders_too(colorized, look, name):
     colorized.ops.reflcolor.show_look(look="range")
     colorized.ops.reflcolor.show_look(look=look)
@@ -142,7 +142,7 @@ def test_there_is_one_map_at_most(colorized):
 def test_what_cannot_be_shown_says_what_to_do(imported, look, message):
     with pytest.raises(RuntimeError, match=message):
         imported.ops.reflcolor.show_look(look=look)
-    assert shown(imported) == "Reflectance Gray"
+    assert shown(imported) == "Reflectance_Gray"
 
 
 def test_a_map_follows_undo_and_redo(colorized):
@@ -153,11 +153,11 @@ def test_a_map_follows_undo_and_redo(colorized):
     bpy.ops.reflcolor.show_look(look="range")
     bpy.ops.ed.undo_push(message="range")
     bpy.ops.ed.undo()
-    assert shown(bpy) == "Confidence Map"
+    assert shown(bpy) == "Confidence_Map"
     bpy.ops.ed.undo()
     assert shown(bpy) == "Colorized"
     bpy.ops.ed.redo()
-    assert shown(bpy) == "Confidence Map"
+    assert shown(bpy) == "Confidence_Map"
 
 
 def test_a_copy_has_a_map_of_its_own(colorized, legend):
@@ -178,7 +178,7 @@ def test_colorizing_again_shows_the_colors(colorized):
     colorized.ops.reflcolor.show_look(look="confidence")
     colorized.ops.reflcolor.colorize()
     assert shown(colorized) == "Colorized"
-    assert "Confidence Map" not in colorized.context.active_object.data.color_attributes
+    assert "Confidence_Map" not in colorized.context.active_object.data.color_attributes
 
 
 def test_evaluating_again_renews_the_map_of_the_error(colorized):
@@ -187,8 +187,8 @@ def test_evaluating_again_renews_the_map_of_the_error(colorized):
     colorized.ops.reflcolor.evaluate()
     obj = colorized.context.active_object
     found = values(obj, "error")
-    assert shown(colorized) == "Error Map"
-    np.testing.assert_array_equal(srgb(obj, "Error Map"), painted(found, "inferno", limits_of(found)))
+    assert shown(colorized) == "Error_Map"
+    np.testing.assert_array_equal(srgb(obj, "Error_Map"), painted(found, "inferno", limits_of(found)))
 
 
 def test_in_edit_mode_it_asks_to_leave_it(colorized):

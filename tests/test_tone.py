@@ -238,7 +238,7 @@ def seeded(blender, dark_file):
 def test_in_blender_the_scene_s_tone_counts_and_the_gray_before_stays(seeded, dark_file):
     bpy, seeds = seeded
     obj = bpy.context.active_object
-    gray = srgb(obj, "Reflectance Gray").copy()
+    gray = srgb(obj, "Reflectance_Gray").copy()
     bpy.ops.reflcolor.colorize()
     assert any(notice.warning and HINT in notice.text for notice in obj.reflcolor.notices)
     bpy.context.scene.reflcolor.tone = 4.0
@@ -246,7 +246,7 @@ def test_in_blender_the_scene_s_tone_counts_and_the_gray_before_stays(seeded, da
     assert not any(notice.warning for notice in obj.reflcolor.notices)
     expected = colorize(read_scans(dark_file)[0], seeds, Settings(tone=4.0, nearest="auto")).rgb.reshape(-1, 3)
     assert np.abs(srgb(obj, "Colorized").astype(int) - expected).max() <= 1
-    assert (srgb(obj, "Reflectance Gray") == gray).all()
+    assert (srgb(obj, "Reflectance_Gray") == gray).all()
 
 
 def test_in_blender_a_preset_leaves_the_tone_alone(blender):

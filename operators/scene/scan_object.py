@@ -11,9 +11,10 @@ from .images import write_image
 from .nodes import node_tree_of
 from .texts import told
 
-GRAY = "Reflectance Gray"
+GRAY = "Reflectance_Gray"
 COLORIZED = "Colorized"
-SCANNED = "Scanned Color"
+SCANNED = "Scanned_Color"
+UV_MAP = "Scan_Grid"
 CONFIDENCE = "confidence"
 NEAREST_SEED = "nearest_seed"
 ERROR = "error"
@@ -272,7 +273,7 @@ def _fill_mesh(mesh, arrays):
         mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
         mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, 4, dtype=np.int32))
     mesh.update(calc_edges=True)
-    mesh.uv_layers.new(name="Scan Grid").uv.foreach_set("vector", arrays.uv)
+    mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", arrays.uv)
     for name, values in arrays.values.items():
         mesh.attributes.new(name, _KINDS[values.dtype.type], "POINT").data.foreach_set("value", values)
 

@@ -21,7 +21,7 @@ def scenario_button_colors_the_scan(window):
     window.check((rgb.max(axis=1) > rgb.min(axis=1) + 20).mean() > 0.1, "the colors are no grays")
     yield from window.screenshot("done")
     yield from window.undo()
-    window.equal(shown_colors(window.scan)[0], "Reflectance Gray", "what is shown after Ctrl Z")
+    window.equal(shown_colors(window.scan)[0], "Reflectance_Gray", "what is shown after Ctrl Z")
     window.equal(len(window.scan.reflcolor.seeds), 4, "seeds after Ctrl Z")
     yield from window.undo(redo=True)
     name, again = shown_colors(window.scan)

@@ -29,7 +29,7 @@ def imported(window):
     """Wait until the example is in, and look at it."""
     yield from window.until(lambda: window.scan is not None and window.scan.name == "cones", 15, "the scan is imported")
     window.equal((window.scan.reflcolor.rows, window.scan.reflcolor.cols), (300, 450), "rows and columns")
-    window.equal(shown_colors(window.scan)[0], "Reflectance Gray", "what is shown")
+    window.equal(shown_colors(window.scan)[0], "Reflectance_Gray", "what is shown")
     window.check(not browser_is_open(window), "the file browser is gone")
 
 

@@ -28,10 +28,10 @@ def scenario_maps_with_a_legend(window):
         window.call("reflcolor.show_look", look=look)
         yield from window.screenshot(look)
     attributes = window.scan.data.color_attributes
-    window.equal(attributes.active_color_name, "Error Map", "what the viewport shows")
+    window.equal(attributes.active_color_name, "Error_Map", "what the viewport shows")
     window.equal(attributes[attributes.render_color_index].name, "Colorized", "what a render shows")
     yield from window.undo()
-    window.equal(window.scan.data.color_attributes.active_color_name, "Range Map", "the map after undo")
+    window.equal(window.scan.data.color_attributes.active_color_name, "Range_Map", "the map after undo")
 
 
 def scenario_before_and_after(window):

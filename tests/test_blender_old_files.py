@@ -1,0 +1,50 @@
+"""Files of earlier versions, in Blender through the installed zip."""
+
+import numpy as np
+import pytest
+from small_scans import random_scan
+from test_blender_import import srgb, write_small_ptx
+
+OLD_NAMES = {"Reflectance_Gray": "Reflectance Gray", "Range_Map": "Range Map", "Scan_Grid": "Scan Grid"}
+
+
+@pytest.fixture
+def old_file(blender, tmp_path):
+    """A scan, shown by its range, saved under the attribute names that had blanks: (bpy, path, gray of its vertices)."""
+    blender.ops.reflcolor.import_scan(filepath=str(write_small_ptx(tmp_path / "wall.ptx", random_scan(3))))
+    blender.ops.reflcolor.show_look(look="range")
+    obj = blender.context.active_object
+    gray = srgb(obj, "Reflectance_Gray")
+    for present, old in OLD_NAMES.items():
+        obj.data.attributes[present].name = old
+    for node in obj.data.materials[0].node_tree.nodes:
+        if node.type == "VERTEX_COLOR":
+            node.layer_name = "Reflectance Gray"
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "old.blend"))
+    blender.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    return blender, tmp_path / "old.blend", gray
+
+
+def _check(obj, gray):
+    assert not set(OLD_NAMES.values()) & set(obj.data.attributes.keys())
+    np.testing.assert_array_equal(srgb(obj, "Reflectance_Gray"), gray)
+    colors = obj.data.color_attributes
+    assert (colors.active_color_name, colors[colors.render_color_index].name) == ("Range_Map", "Reflectance_Gray")
+    assert obj.data.uv_layers.active.name == "Scan_Grid"
+    nodes = obj.data.materials[0].node_tree.nodes
+    assert [node.layer_name for node in nodes if node.type == "VERTEX_COLOR"] == ["Reflectance_Gray"]
+
+
+def test_a_file_with_the_old_attribute_names_opens_with_the_present_ones(old_file):
+    bpy, path, gray = old_file
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    (obj,) = (obj for obj in bpy.data.objects if obj.type == "MESH")
+    _check(obj, gray)
+
+
+@pytest.mark.parametrize("link", [False, True], ids=["appended", "linked"])
+def test_an_object_of_such_a_file_comes_with_the_present_names(old_file, link):
+    bpy, path, gray = old_file
+    operator = bpy.ops.wm.link if link else bpy.ops.wm.append
+    operator(directory=f"{path}/Object/", filename="wall")
+    _check(bpy.data.objects["wall"], gray)
