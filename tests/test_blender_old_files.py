@@ -10,7 +10,7 @@ OLD_NAMES = {"Reflectance_Gray": "Reflectance Gray", "Range_Map": "Range Map", "
 
 @pytest.fixture
 def old_file(blender, tmp_path):
-    """A scan, shown by its range, saved under the attribute names that had blanks: (bpy, path, gray of its vertices)."""
+    """A scan, shown by its range, saved under names with blanks: (bpy, path, gray of its vertices)."""
     blender.ops.reflcolor.import_scan(filepath=str(write_small_ptx(tmp_path / "wall.ptx", random_scan(3))))
     blender.ops.reflcolor.show_look(look="range")
     obj = blender.context.active_object
