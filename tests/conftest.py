@@ -39,6 +39,14 @@ def data_dir():
     return folder
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _no_waiting_for_the_disk():
+    """Nothing in the tests has to survive a power failure; waiting for the disk would take most of their time."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "fsync", lambda _number: None)
+        yield
+
+
 @pytest.fixture(scope="session")
 def extension_zip():
     """The built zip: REFLCOLOR_ZIP, or what `make build` left for this platform and Python, of the present sources."""

@@ -4,6 +4,7 @@ import bpy
 
 from ...reflcolor_addon.batch.outputs import tracked
 from ...reflcolor_addon.errors import ReflcolorError, UsageError
+from .blender_errors import blender_reason
 from .simulation import Simulation, leveled_pose, photo_cameras, simulation_steps
 
 
@@ -31,7 +32,7 @@ def simulate_file(request, progress, written):
         # What a file brings along is to be looked at, not run.
         bpy.ops.wm.open_mainfile(filepath=str(request.scene), load_ui=False, use_scripts=False)
     except RuntimeError as error:
-        reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
+        reason = blender_reason(error)
         raise ReflcolorError(f"{request.scene}: Blender could not open it: {reason}") from error
     scene = bpy.context.scene
     bpy.context.view_layer.update()

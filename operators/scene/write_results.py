@@ -8,6 +8,7 @@ import bpy
 from ...reflcolor_addon.errors import OutputError
 from ...reflcolor_addon.files.atomic import written_atomically
 from ...reflcolor_addon.scan.object_arrays import object_arrays
+from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
 from .provenance import record_provenance
 from .render import add_camera_and_lights, render
@@ -64,10 +65,14 @@ def _add_object(context, scan, colorization, report):
 
 def _write(path, write):
     with written_atomically(path) as temporary:
+        if fault := path_fault(temporary):
+            raise OutputError("{file}: cannot be written ({reason}); choose another folder", file=path, reason=fault)
         try:
             write(temporary)
         except RuntimeError as error:
-            raise OutputError(f"{path}: Blender could not write it: {str(error).strip().splitlines()[-1]}") from error
+            raise OutputError(
+                "{file}: cannot be written ({reason})", file=path, reason=blender_reason(error)
+            ) from error
 
 
 def _write_blend(path):

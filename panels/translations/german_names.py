@@ -117,6 +117,7 @@ _PROPERTIES = {
     "Match Lines": "Zuordnungslinien",
     "Matches": "Zuordnungen",
     "Matching": "Zuordnung",
+    "Message": "Meldung",
     "Mode": "Modus",
     "Nearest Seeds": "Nächste Saatpunkte",
     "Neighbors": "Nachbarn",

@@ -1,10 +1,10 @@
 """Where results go: looked at before the work begins, so that nothing is found out at its end."""
 
 import os
-import tempfile
 from contextlib import contextmanager
 
-from ..errors import OutputError, UsageError
+from ..errors import UsageError
+from ..files.atomic import require_writable
 
 IMAGE_SUFFIXES = (".png",)
 SCENE_SUFFIXES = (".blend", ".glb", ".ply")
@@ -67,7 +67,7 @@ def check_outputs(outputs, inputs):
             if _same_file(path, other):
                 raise UsageError(f"{option} {path}: the same file as {other_option} {other}; choose another name")
     for _, path in outputs:
-        _check_writable(path)
+        require_writable(path)
 
 
 @contextmanager
@@ -88,23 +88,6 @@ def _same_file(one, other):
         return one.samefile(other)
     except OSError:
         return os.path.normcase(os.path.realpath(one)) == os.path.normcase(os.path.realpath(other))
-
-
-def _check_writable(path):
-    folder = path.parent
-    try:
-        if path.exists() and not path.is_file():
-            raise OutputError(f"{path}: cannot be written: it is a directory or a device; name a file")
-        if not folder.is_dir():
-            raise OutputError(f"{path}: cannot be written: there is no folder {folder}; make it first")
-        if path.exists() and not os.access(path, os.W_OK):
-            raise OutputError(f"{path}: cannot be written: it is there and write-protected; choose another name")
-        # Asking for permission is no proof (read-only and full disks, network shares); a file is.
-        with tempfile.TemporaryFile(dir=folder) as file:
-            file.write(b"\0")
-    except OSError as error:
-        reason = error.strerror or error
-        raise OutputError(f"{path}: cannot be written ({reason}); choose a folder that you may write to") from error
 
 
 def _identity(path):

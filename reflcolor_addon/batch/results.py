@@ -4,11 +4,12 @@ import json
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 from ..color.colorizer import colorize
 from ..files.atomic import written_atomically
 from ..files.images import write_png
-from ..report.report import build_report, input_entry, photo_entry, scan_entry, stamped
+from ..report.report import build_report, input_entry, output_entry, photo_entry, scan_entry, stamped
 from ..seeds.seeds import Seeds
 from .outputs import IMAGE_SUFFIXES, SCENE_SUFFIXES, tracked
 from .site import PLACEHOLDER, SiteScan, filled_for_all, named
@@ -118,18 +119,26 @@ class _Work:
             times["write"] += shared["write"]
 
     def write_files(self):
-        """Write images and reports; a report comes last, it says how long the rest took."""
+        """Write images, then reports: each names the hashes of its outputs, so it comes after all of them."""
         progress = self._session.progress
-        for own, rgb, report, times in self._rest:
+        for own, rgb, _, times in self._rest:
             with timed(times, "write"):
                 for option, path in own:
                     if option == "-o" and path.suffix.lower() in IMAGE_SUFFIXES:
                         progress(1.0, f"Writing {path.name}")
                         write_png(path, rgb)
-            for option, path in own:
-                if option == "--report":
-                    progress(1.0, f"Writing {path.name}")
-                    _write_json(path, report | {"times_s": times})
+        for own, _, report, times in self._rest:
+            for path in [path for option, path in own if option == "--report"]:
+                progress(1.0, f"Writing {path.name}")
+                with timed(times, "write"):
+                    outputs = [self._output(entry, path) for entry in report["outputs"]]
+                _write_json(path, report | {"outputs": outputs, "times_s": times})
+
+    def _output(self, entry, report_path):
+        """What a report says of one of its outputs; of itself only where it is."""
+        if entry["option"] == "--report":
+            return entry
+        return output_entry(entry["option"], Path(entry["path"]), report_path, self._session.cancelled)
 
     def _report(self, job, colorization):
         for role, path in job.inputs:

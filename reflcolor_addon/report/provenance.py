@@ -56,6 +56,26 @@ def parse_provenance(text):
     return report
 
 
+def read_report(path):
+    """Return the report that a JSON file holds.
+
+    Raises
+    ------
+    ReflcolorError
+        If the file cannot be read, or holds no report that this version can read.
+    """
+    try:
+        text = path.read_text("utf-8-sig")
+    except OSError as error:
+        raise ReflcolorError("{file}: cannot be read ({reason})", file=path, reason=error.strerror or error) from error
+    except ValueError as error:
+        raise ReflcolorError("{file}: is no text in UTF-8; expected a report in JSON", file=path) from error
+    try:
+        return parse_provenance(text)
+    except ReflcolorError as error:
+        raise ReflcolorError("{file}: {problem}", file=path, problem=error.message) from error
+
+
 def outline(report):
     """Return the Provenance of a report.
 

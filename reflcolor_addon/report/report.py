@@ -3,8 +3,10 @@
 import hashlib
 import importlib.metadata
 import math
+import os
 import platform
 from datetime import UTC, datetime
+from pathlib import Path
 
 from ..errors import Cancelled, ReflcolorError
 from ..scan.normalization import PERCENTILES
@@ -105,6 +107,34 @@ def input_entry(role, path, cancelled=None):
         If ``cancelled()`` returned True.
     """
     return {"role": role, "path": str(path)} | fingerprint(path, cancelled)
+
+
+def output_entry(option, path, report_path, cancelled=None):
+    """Return what a report says of an output that is there: size and hash, and where it is.
+
+    Parameters
+    ----------
+    option : str
+        What asked for it.
+    path : Path
+    report_path : Path
+        Where the report goes. ``from_report`` is the way from its folder to the output, with slashes, so that a folder
+        of results can be moved; where there is no such way, between drives, it is the whole path.
+    cancelled : callable, optional
+
+    Raises
+    ------
+    ReflcolorError
+        If it cannot be read.
+    Cancelled
+        If ``cancelled()`` returned True.
+    """
+    try:
+        way = os.path.relpath(path, report_path.parent)
+    except ValueError:
+        way = path.absolute()
+    entry = {"option": option, "path": str(path), "from_report": Path(way).as_posix()}
+    return entry | fingerprint(path, cancelled)
 
 
 def photo_entry(photo):

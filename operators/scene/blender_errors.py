@@ -1,0 +1,23 @@
+"""What Blender says when it could not do something, as the end of one line."""
+
+import os
+
+# Blender cuts longer paths off without a word.
+LONGEST_PATH = 1023
+
+
+def blender_reason(error):
+    """Return why, of the RuntimeError that an operator of Blender raised: without its prefix, traceback and place."""
+    lines = [line.strip() for line in str(error).splitlines()]
+    said = [line for line in lines if line and not line.startswith("Location:")] or ["unknown error"]
+    return said[-1].removeprefix("Error: ")
+
+
+def path_fault(path):
+    """Return why Blender can neither read nor write a path, whatever is there; None where it can."""
+    try:
+        if len(os.fspath(path).encode()) > LONGEST_PATH:
+            return f"its path is longer than the {LONGEST_PATH:,} bytes that Blender takes"
+    except UnicodeEncodeError:
+        return "its path is not in UTF-8, as Blender needs it"
+    return None
