@@ -13,7 +13,7 @@ from .scene.texts import tip
 class NoticeChoice:
     """One of the messages of the scan, as a property of an operator."""
 
-    index: IntProperty(name="Message", description="Message of the list, counted from 0", min=0)
+    index: IntProperty(name="Message", description="Message of the list, counted from 0", min=0, options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context):

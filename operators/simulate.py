@@ -23,6 +23,7 @@ class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
     bl_options = {"REGISTER", "PRESET"}
 
     filename_ext = ".e57"
+    _from_browser = False
     # The suffix that a person types chooses the format.
     check_extension = None
     filter_glob: StringProperty(default="*.ptx;*.e57;*.scan.json", options={"HIDDEN"})
@@ -121,13 +122,15 @@ class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
     )
 
     def invoke(self, context, event):
-        self._browsed = True
+        self._from_browser = True
         return ExportHelper.invoke(self, context, event)
 
     @reported
     def execute(self, context):
+        # As in Import: what Blender repeats must not go on.
+        from_browser, self._from_browser = self._from_browser, False
         steps = simulation_steps(context.scene, self._simulation(context))
-        if getattr(self, "_browsed", False) and not bpy.app.background and context.window is not None:
+        if from_browser and context.window is not None:
             return self._start(context, steps)
         for _ in steps:
             pass

@@ -144,7 +144,6 @@ _IMAGES = {
     "Lay the colors over the scan's image, right of a line that can be dragged": (
         "Die Farben über das Bild des Scans legen, rechts einer Linie, die sich ziehen lässt"
     ),
-    "Message of the list, counted from 0": "Meldung der Liste, von 0 gezählt",
     "Message that is selected in the list": "Meldung, die in der Liste ausgewählt ist",
     "Photo that is selected in the list": "Foto, das in der Liste ausgewählt ist",
     "Photos that colors are taken from": "Fotos, aus denen Farben genommen werden",

@@ -117,7 +117,6 @@ _PROPERTIES = {
     "Match Lines": "Zuordnungslinien",
     "Matches": "Zuordnungen",
     "Matching": "Zuordnung",
-    "Message": "Meldung",
     "Mode": "Modus",
     "Nearest Seeds": "Nächste Saatpunkte",
     "Neighbors": "Nachbarn",

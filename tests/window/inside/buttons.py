@@ -9,6 +9,8 @@ _EDGE_PX = 24
 # Where in a region's width buttons are looked for: full-width ones, the icons on the right, the left of two in a row.
 _COLUMNS = (0.5, 0.93, 0.25, 0.75)
 _SCROLLS = 12
+# Where a property's field is in the redo panel, from the mouse that it was opened at: to the right, and row by row.
+_FIELD_PX, _ROW_PX, _ROWS = 200, 11, 26
 
 
 class Buttons:
@@ -66,6 +68,27 @@ class Buttons:
                     return manager.clipboard
         return ""
 
+    def change_last_act(self):
+        """Open the redo panel of what was done last and change the first value that can be; return its name.
+
+        Numbers and choices are turned by the wheel, boxes are clicked.
+        """
+        before = _last_values()
+        corner = self.place_in(self.area("VIEW_3D"), 0.2, 0.85)
+        for change in (lambda place: self.wheel(place, -1, ctrl=True), self.click):
+            yield from self.move(corner)
+            yield from self.key("F9")
+            yield 0.2
+            for row in range(2, _ROWS):
+                yield from change((corner[0] + _FIELD_PX, corner[1] - row * _ROW_PX))
+                yield 0.02
+                after = _last_values()
+                if changed := [name for name in after if after[name] != before.get(name)]:
+                    yield from self.key("ESC")
+                    return changed[0]
+            yield from self.key("ESC")
+        raise AssertionError(f"nothing in the redo panel of {bpy.context.window_manager.operators[-1].name} changes")
+
     def _look_down(self, name, area, region, column):
         found = self.region(area, region)
         x, first = found.x + column * found.width, None
@@ -92,3 +115,14 @@ def _is_button(told, name):
         call = told.removeprefix("bpy.ops.")
         return call == name or call.startswith(f"{name}(")
     return bool(told) and (told.endswith(f".{name}") or f".{name}[" in told)
+
+
+def _last_values():
+    """The values of the operator that the redo panel is of."""
+    values = bpy.context.window_manager.operators[-1].properties
+    names = [prop.identifier for prop in values.bl_rna.properties if prop.type in {"BOOLEAN", "INT", "FLOAT", "ENUM"}]
+    return {name: _plain(getattr(values, name)) for name in names}
+
+
+def _plain(value):
+    return tuple(value) if hasattr(value, "__len__") and not isinstance(value, str | set) else value

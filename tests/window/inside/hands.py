@@ -66,12 +66,14 @@ class Hands:
             name = letter.upper() if letter.isalpha() and letter.isascii() else _KEYS[letter]
             yield from self.key(name, text=letter)
 
-    def wheel(self, place, turns):
+    def wheel(self, place, turns, **held):
         """Turn the wheel over a place; up is positive."""
         yield from self.move(place)
+        yield from self._hold(held)
         for _ in range(abs(turns)):
-            self._event("WHEELUPMOUSE" if turns > 0 else "WHEELDOWNMOUSE", "PRESS")
+            self._event("WHEELUPMOUSE" if turns > 0 else "WHEELDOWNMOUSE", "PRESS", **held)
             yield from self._turns(1)
+        yield from self._let_go(held)
 
     def _hold(self, held):
         """Press the keys to be held: by them, not by the mouse's events, Blender knows what is held in a drag."""

@@ -121,6 +121,16 @@ class Window(Hands, Eyes, Buttons, Stalls):
         with self.at(area or self.area("VIEW_3D")):
             return getattr(getattr(bpy.ops, group), name)("INVOKE_DEFAULT", True, **arguments)
 
+    def press(self, operator, **arguments):
+        """Call an operator by a key over the 3D View, as an entry of a menu does: Blender itself calls it."""
+        keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new("3D View", space_type="VIEW_3D")
+        item = keymap.keymap_items.new(operator, "F19", "PRESS")
+        for name, value in arguments.items():
+            setattr(item.properties, name, value)
+        yield from self.move(self.place_in(self.area("VIEW_3D"), 0.3, 0.5))
+        yield from self.key("F19")
+        keymap.keymap_items.remove(item)
+
     def drop(self, *paths, area=None):
         """Drop files on an area: call what Blender calls when it gets them from another program."""
         folders = {str(Path(path).parent) for path in paths}
