@@ -6,9 +6,9 @@ import pytest
 from reflcolor_addon import read_scans
 from reflcolor_addon.errors import OutputError
 from reflcolor_addon.files.writers import write_e57, write_image_pair, write_ptx
-from reflcolor_addon.files.writers.e57 import quaternion
 from reflcolor_addon.files.writers.image_pair import spherical_limits_deg
 from reflcolor_addon.scan.directions import directions
+from reflcolor_addon.scan.rotations import quaternion
 from reflcolor_addon.scan.scan import Scan
 
 

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 MAX_INCIDENCE_DEG = 88.0
+STRIP_PIXELS = 1 << 18
+"""Pixels that are worked on at a time, so that a large scan needs no array of doubles beside its own."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -46,25 +48,62 @@ def grid_mesh(scan, max_incidence_deg=MAX_INCIDENCE_DEG):
     GridMesh
     """
     height, width = scan.shape
-    # A full turn gets its first column once more at the right.
-    columns = np.arange(width + 1) % width if scan.full_turn else np.arange(width)
-    valid, points = scan.valid[:, columns], scan.points[:, columns]
-    across = valid[:, :-1] & valid[:, 1:] & ~_is_jump(points[:, :-1], points[:, 1:], max_incidence_deg)
-    down = valid[:-1] & valid[1:] & ~_is_jump(points[:-1], points[1:], max_incidence_deg)
-    row, col = np.nonzero(across[:-1] & across[1:] & down[:, :-1] & down[:, 1:])
+    mask = face_mask(scan, max_incidence_deg)
+    rows, cols = (index.astype(np.int32) for index in np.nonzero(scan.valid))
+    vertex = np.empty((height, mask.shape[1] + 1), np.int32)
+    vertex[:, :width][scan.valid] = np.arange(rows.size, dtype=np.int32)
+    if scan.full_turn:
+        vertex[:, width] = vertex[:, 0]
+    row, col = (index.astype(np.int32) for index in np.nonzero(mask))
+    uv = np.empty((row.size, 4, 2), np.float32)
+    for corner, (down, right) in enumerate(CORNERS):
+        uv[:, corner, 0] = (col + (right + 0.5)) / width
+        uv[:, corner, 1] = 1 - (row + (down + 0.5)) / height
+    return GridMesh(rows=rows, cols=cols, quads=quads_of(mask, vertex), uv=uv)
 
-    vertex = np.full(scan.shape, -1, np.int32)
-    rows, cols = np.nonzero(scan.valid)
-    vertex[rows, cols] = np.arange(rows.size)
-    corner_rows = np.stack([row, row + 1, row + 1, row], axis=1)
-    corner_cols = np.stack([col, col, col + 1, col + 1], axis=1)
-    uv = np.stack([(corner_cols + 0.5) / width, 1 - (corner_rows + 0.5) / height], axis=-1)
-    return GridMesh(
-        rows=rows.astype(np.int32),
-        cols=cols.astype(np.int32),
-        quads=vertex[corner_rows, columns[corner_cols]].reshape(-1, 4),
-        uv=uv.astype(np.float32),
-    )
+
+CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
+"""Rows down and columns to the right of each corner of a face, counterclockwise as seen from the scanner."""
+
+
+def face_mask(scan, max_incidence_deg=MAX_INCIDENCE_DEG):
+    """Return which squares of four neighboring pixels are a face; see `grid_mesh`.
+
+    Returns
+    -------
+    (H - 1, W - 1) bool, or (H - 1, W) for a full turn
+        At the square's upper left pixel.
+    """
+    height, width = scan.shape
+    # A full turn gets its first column once more at the right.
+    columns = np.arange(width + 1) % width if scan.full_turn else slice(None)
+    mask = np.zeros((max(height - 1, 0), width - (not scan.full_turn)), bool)
+    step = max(1, STRIP_PIXELS // width)
+    for top in range(0, height - 1, step):
+        strip = slice(top, min(top + step, height - 1) + 1)
+        valid, points = scan.valid[strip, columns], scan.points[strip, columns]
+        across = valid[:, :-1] & valid[:, 1:] & ~_is_jump(points[:, :-1], points[:, 1:], max_incidence_deg)
+        down = valid[:-1] & valid[1:] & ~_is_jump(points[:-1], points[1:], max_incidence_deg)
+        mask[top : top + len(valid) - 1] = across[:-1] & across[1:] & down[:, :-1] & down[:, 1:]
+    return mask
+
+
+def quads_of(mask, vertex):
+    """Return the (F, 4) int32 vertices of the faces of a grid, or of a strip of it.
+
+    Parameters
+    ----------
+    mask : (H - 1, W - 1) or (H - 1, W) bool
+        From `face_mask`.
+    vertex : (H, W) or (H, W + 1) int32
+        Index of each pixel's vertex, anything where there is none; the first column once more at the right for a full
+        turn.
+    """
+    height, width = mask.shape
+    quads = np.empty((np.count_nonzero(mask), 4), np.int32)
+    for corner, (down, right) in enumerate(CORNERS):
+        quads[:, corner] = vertex[down : down + height, right : right + width][mask]
+    return quads
 
 
 def _is_jump(p, q, max_incidence_deg):
