@@ -72,7 +72,7 @@ def test_colors_are_active_for_viewport_render_and_material(seeded):
     attributes = mesh.color_attributes
     assert attributes.active_color_name == attributes[attributes.render_color_index].name == "Colorized"
     nodes = mesh.materials[0].node_tree.nodes
-    assert [node.layer_name for node in nodes if node.type == "VERTEX_COLOR"] == ["Colorized"]
+    assert [node.attribute_name for node in nodes if node.type == "ATTRIBUTE"] == ["Colorized"]
     assert attributes["Colorized"].domain == "POINT"
 
 

@@ -137,7 +137,7 @@ def test_the_gray_of_the_reflectance_is_seen_at_once(blender, small):
     gray = srgb(obj, "Reflectance_Gray")
     assert gray[0].max() == 0 and gray[-1].min() == 255 and (np.diff(gray[:, 0].astype(int)) >= 0).all()
     nodes = obj.data.materials[0].node_tree.nodes
-    assert [node.layer_name for node in nodes if node.type == "VERTEX_COLOR"] == ["Reflectance_Gray"]
+    assert [node.attribute_name for node in nodes if node.type == "ATTRIBUTE"] == ["Reflectance_Gray"]
 
 
 def test_reflectance_and_range_images_stay_in_the_file(blender, small, tmp_path):

@@ -110,7 +110,7 @@ def test_looking_changes_neither_renders_nor_materials(colorized, look):
     attributes = mesh.color_attributes
     assert attributes[attributes.render_color_index].name == "Colorized"
     nodes = mesh.materials[0].node_tree.nodes
-    assert [node.layer_name for node in nodes if node.type == "VERTEX_COLOR"] == ["Colorized"]
+    assert [node.attribute_name for node in nodes if node.type == "ATTRIBUTE"] == ["Colorized"]
 
 
 @pytest.mark.parametrize(("look", "name"), [("gray", "Reflectance_Gray"), ("colorized", "Colorized")])
@@ -120,7 +120,7 @@ def test_gray_and_colorized_go_to_renders_too(colorized, look, name):
     mesh = colorized.context.active_object.data
     attributes = mesh.color_attributes
     assert attributes.active_color_name == attributes[attributes.render_color_index].name == name
-    assert [node.layer_name for node in mesh.materials[0].node_tree.nodes if node.type == "VERTEX_COLOR"] == [name]
+    assert [node.attribute_name for node in mesh.materials[0].node_tree.nodes if node.type == "ATTRIBUTE"] == [name]
 
 
 def test_there_is_one_map_at_most(colorized):

@@ -17,9 +17,12 @@ def old_file(blender, tmp_path):
     gray = srgb(obj, "Reflectance_Gray")
     for present, old in OLD_NAMES.items():
         obj.data.attributes[present].name = old
-    for node in obj.data.materials[0].node_tree.nodes:
-        if node.type == "VERTEX_COLOR":
-            node.layer_name = "Reflectance Gray"
+    nodes, links = obj.data.materials[0].node_tree.nodes, obj.data.materials[0].node_tree.links
+    old = nodes.new("ShaderNodeVertexColor")
+    old.layer_name = "Reflectance Gray"
+    (present,) = (node for node in nodes if node.type == "ATTRIBUTE")
+    links.new(old.outputs["Color"], present.outputs["Color"].links[0].to_socket)
+    nodes.remove(present)
     blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "old.blend"))
     blender.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     return blender, tmp_path / "old.blend", gray

@@ -3,6 +3,8 @@
 import bpy
 from bpy.app.handlers import persistent
 
+from .nodes import show_in_material
+
 _PRESENT = {
     "Reflectance Gray": "Reflectance_Gray",
     "Scanned Color": "Scanned_Color",
@@ -25,9 +27,8 @@ def rename_attributes(objects):
             if attribute is not None and new not in mesh.attributes:
                 attribute.name = new
         for material in filter(None, mesh.materials):
-            for node in material.node_tree.nodes if material.node_tree else ():
-                if node.type == "VERTEX_COLOR":
-                    node.layer_name = _PRESENT.get(node.layer_name, node.layer_name)
+            for old, new in _PRESENT.items():
+                show_in_material(material, new, instead_of=(old,))
 
 
 @persistent

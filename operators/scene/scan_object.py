@@ -8,13 +8,15 @@ from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.scan.georeference import origin_shift, rigid_pose
 from ...reflcolor_addon.scan.scan import Scan
 from .images import write_image
-from .nodes import node_tree_of
+from .nodes import color_node, node_tree_of, show_in_material
 from .texts import told
 
 GRAY = "Reflectance_Gray"
 COLORIZED = "Colorized"
 SCANNED = "Scanned_Color"
 UV_MAP = "Scan_Grid"
+# Of these the material shows one.
+SHOWN_IN_RENDERS = (GRAY, COLORIZED, SCANNED)
 CONFIDENCE = "confidence"
 NEAREST_SEED = "nearest_seed"
 ERROR = "error"
@@ -246,9 +248,14 @@ def show_colors(obj, name):
     look_at(obj, name)
     mesh.color_attributes.render_color_index = mesh.color_attributes.find(name)
     for material in filter(None, mesh.materials):
-        for node in material.node_tree.nodes if material.node_tree else ():
-            if node.type == "VERTEX_COLOR":
-                node.layer_name = name
+        show_in_material(material, name, instead_of=SHOWN_IN_RENDERS)
+
+
+def shown_in_renders(obj):
+    """Return the name of the color attribute that renders and exports take."""
+    attributes = obj.data.color_attributes
+    name = attributes[attributes.render_color_index].name if len(attributes) else GRAY
+    return name if name in SHOWN_IN_RENDERS else GRAY
 
 
 def look_at(obj, name):
@@ -285,13 +292,13 @@ def _check_readable(obj):
 
 
 def _material(name):
-    """A matte material that takes its color from a named Color Attribute node."""
+    """A matte material that shows a color attribute."""
     material = bpy.data.materials.new(name)
     nodes, links = node_tree_of(material).nodes, material.node_tree.links
     shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
     shader.inputs["Roughness"].default_value = 1.0
     shader.inputs["Specular IOR Level"].default_value = 0.0
-    color = nodes.new("ShaderNodeVertexColor")
+    color = color_node(material, GRAY)
     color.location = (shader.location.x - 250, shader.location.y)
     links.new(color.outputs["Color"], shader.inputs["Base Color"])
     return material
