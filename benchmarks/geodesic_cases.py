@@ -53,12 +53,12 @@ def pixel_graph(images, neighbors=8):
     return PixelGraph(luminance=luminance, range_image=range_image, valid=valid, neighbors=neighbors)
 
 
-def whole_scan(name, stride):
-    """A scan of `SCANS`, enlarged to the paper's size and thinned out again; its color is enlarged, too."""
+def whole_scan(name, stride, shape=PAPER_SIZE):
+    """A scan of `SCANS`, enlarged to ``shape`` and thinned out again; its color is enlarged, too."""
     import cv2
 
     small = real_scans.load(name, DATA)
-    luminance, range_image, valid = enlarged(name)
+    luminance, range_image, valid = enlarged(name, shape)
     height, width = valid.shape
     azimuth, elevation = np.linspace(-0.7, 0.7, width), np.linspace(0.4, -0.4, height)[:, None]
     towards = np.cos(elevation) * np.cos(azimuth), -np.cos(elevation) * np.sin(azimuth), np.sin(elevation) + 0 * azimuth
