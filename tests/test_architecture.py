@@ -13,11 +13,12 @@ CORE = "reflcolor_addon"
 GROUND = {"declaration", "errors", "messages", "progress", "settings", "srgb", "version"}
 # What each room may import besides itself and the ground floor. Data walks from the top of this list to its end.
 ROOMS = {
+    "native": set(),
     "scan": set(),
-    "files": {"scan"},
+    "files": {"native", "scan"},
     "seeds": {"scan", "files"},
-    "geodesic": {"scan"},
-    "color": {"scan", "files", "seeds", "geodesic"},
+    "geodesic": {"native", "scan"},
+    "color": {"native", "scan", "files", "seeds", "geodesic"},
     "matching": {"scan", "files", "seeds", "color"},
     "simulation": {"scan", "color"},
     "report": {"scan", "files", "seeds", "color"},

@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 from reflcolor_addon.errors import Cancelled
-from reflcolor_addon.geodesic import kernel, kernel_library
+from reflcolor_addon.geodesic import kernel
 from reflcolor_addon.geodesic.engines import NativeEngine
 from reflcolor_addon.geodesic.exact import HeldFields, add_fields
 from reflcolor_addon.geodesic.graph import PixelGraph
+from reflcolor_addon.native import library as native
 
 KERNEL = Path(__file__).resolve().parent.parent / "kernel"
 FUZZ = KERNEL.parent / "tools" / "fuzz_kernel.sh"
@@ -25,7 +26,7 @@ NARROW_BANDS = ("-DRC_BAND_PIXELS=1", "-DRC_BAND_CELLS=0")
 
 @pytest.fixture
 def library():
-    return kernel_library.library()
+    return native.library()
 
 
 @pytest.mark.parametrize(
@@ -37,7 +38,7 @@ def test_a_size_that_is_no_size_or_too_large_is_refused_by_a_code(library, heigh
 
 
 def test_null_pointers_are_refused_by_a_code(library):
-    graph = kernel_library.CGraph(2, 2, 8, 0, 1.0, 0.0, None, None)
+    graph = native.CGraph(2, 2, 8, 0, 1.0, 0.0, None, None)
     assert library.rc_field(None, 1, None, None, None, None) == -1
     assert library.rc_field(graph, 1, None, None, None, None) == -1
     assert library.rc_nearest(graph, 1, None, 1, None, None) == -1
@@ -46,6 +47,13 @@ def test_null_pointers_are_refused_by_a_code(library):
     assert library.rc_blend_finish(4, None, None, None) == -1
     assert library.rc_blend_nearest(None, 0, 2, 1, None, 1, None, 6.0, *[None] * 6) == -1
     assert library.rc_blend_nearest(graph, 0, 2, 1, None, 1, None, 6.0, *[None] * 6) == -1
+    assert library.rc_kriging(1, None, 1, None, 2, None, None, None) == -1
+
+
+def test_a_number_of_channels_that_is_none_or_too_large_is_refused_by_a_code(library):
+    numbers = np.zeros(8, np.float32).ctypes.data
+    for pixels, count, channels in ((0, 1, 2), (1, 0, 2), (1, 1, 0), (1, 1, 5), (-1, 1, 2), (1, -(2**62), 2)):
+        assert library.rc_kriging(pixels, numbers, count, numbers, channels, numbers, numbers, None) == -2
 
 
 def test_a_seed_count_that_is_no_count_is_refused_by_a_code(library):
@@ -157,13 +165,13 @@ def test_every_optimization_and_instruction_set_gives_the_same_bits(tmp_path):
 
 
 def test_a_kernel_of_another_interface_is_not_used(monkeypatch):
-    kernel_library._load.cache_clear()
-    monkeypatch.setattr(kernel_library, "ABI_VERSION", 999)
+    native._load.cache_clear()
+    monkeypatch.setattr(native, "ABI_VERSION", 999)
     try:
         assert not kernel.available()
         assert "999" in kernel.reason()
     finally:
-        kernel_library._load.cache_clear()
+        native._load.cache_clear()
 
 
 @pytest.mark.parametrize("content", [b"", b"not a library"])
@@ -173,13 +181,13 @@ def test_a_library_that_does_not_load_is_a_reason_and_no_crash(monkeypatch, tmp_
     library = tmp_path / "library"
     library.write_bytes(content)
     monkeypatch.setattr(reflcolor_kernel, "library_path", lambda: library)
-    kernel_library._load.cache_clear()
+    native._load.cache_clear()
     try:
         assert "does not load" in kernel.reason()
     finally:
-        kernel_library._load.cache_clear()
+        native._load.cache_clear()
 
 
 def test_the_interface_is_plain_c(library):
     assert library.rc_abi_version() == kernel.ABI_VERSION
-    assert ctypes.sizeof(kernel_library.CGraph) == 48
+    assert ctypes.sizeof(native.CGraph) == 48

@@ -8,6 +8,9 @@ from hypothesis import strategies as st
 from reflcolor_addon import Scan
 from reflcolor_addon.color import kriging
 from reflcolor_addon.color.kriging import FEATURES, Kriging, pixel_features, share
+from reflcolor_addon.errors import Cancelled
+from reflcolor_addon.native.kriging import exponential_sums
+from reflcolor_addon.native.library import Control
 
 seed_counts = st.integers(1, 40)
 
@@ -50,7 +53,36 @@ def test_the_order_of_the_seeds_does_not_matter(count, number):
     features, colors = random_seeds(count, generator)
     order, pixels = generator.permutation(count), generator.normal(size=(20, FEATURES))
     turned = Kriging(features[order], colors[order])
-    assert turned.estimate(pixels) == pytest.approx(Kriging(features, colors).estimate(pixels), abs=1e-6)
+    assert turned.estimate(pixels) == pytest.approx(Kriging(features, colors).estimate(pixels), abs=1e-3)
+
+
+@given(
+    count=st.integers(1, 300), pixels=st.integers(1, 200), channels=st.integers(1, 4), number=st.integers(0, 2**32 - 1)
+)
+def test_the_kernels_sums_are_those_of_double_precision(count, pixels, channels, number):
+    generator = np.random.default_rng(number)
+    features, seeds = (generator.normal(size=(n, FEATURES)).astype(np.float32) for n in (pixels, count))
+    weights = generator.uniform(-100, 100, (count, channels)).astype(np.float32)
+    shares = np.exp(-np.linalg.norm(features[:, None].astype(np.float64) - seeds, axis=-1))
+    sums = exponential_sums(features, seeds, weights)
+    assert (np.abs(sums - shares @ weights) < 1e-5 * (shares @ np.abs(weights))).all()
+
+
+def test_an_estimate_does_not_depend_on_the_pixels_beside_it():
+    generator = np.random.default_rng(3)
+    features, colors = random_seeds(300, generator)
+    model, pixels = Kriging(features, colors), generator.normal(size=(200, FEATURES)).astype(np.float32)
+    alone = np.concatenate([model.estimate(pixels[start : start + 1]) for start in range(len(pixels))])
+    assert np.array_equal(model.estimate(pixels), alone)
+
+
+def test_sums_of_the_wrong_shape_or_that_are_cancelled_are_none():
+    with pytest.raises(ValueError, match="expected"):
+        exponential_sums(np.zeros((1, 7)), np.zeros((1, 8)), np.zeros((1, 2)))
+    control = Control()
+    control.cancel()
+    with pytest.raises(Cancelled):
+        exponential_sums(np.zeros((1, 8)), np.zeros((1, 8)), np.zeros((1, 2)), control)
 
 
 def test_far_from_every_seed_the_mean_is_estimated_and_near_one_about_its_color():

@@ -158,6 +158,46 @@ static void check_blend(int64_t h, int64_t w, int64_t count, const float *fields
     free(index);
 }
 
+static void check_kriging(void)
+{
+    const int64_t pixels = 1 + below(200), count = 1 + below(20);
+    const int32_t channels = 1 + (int32_t)below(RC_MAX_CHANNELS);
+    const size_t of_pixels = (size_t)pixels * RC_FEATURES, of_seeds = (size_t)count * RC_FEATURES;
+    float *features = room(of_pixels * sizeof *features), *seeds = room(of_seeds * sizeof *seeds);
+    float *weights = room((size_t)(count * channels) * sizeof *weights);
+    float *sums = room((size_t)(pixels * channels) * sizeof *sums);
+    const float scale = below(8) ? 1000.0f : below(2) ? 1.0f : 1e-30f;
+    for (size_t i = 0; i < of_pixels; i++) {
+        features[i] = (float)below(2000) / scale;
+    }
+    for (size_t i = 0; i < of_seeds; i++) {
+        seeds[i] = below(3) ? (float)below(2000) / scale : features[i % of_pixels];
+    }
+    for (int64_t i = 0; i < count * channels; i++) {
+        weights[i] = (float)below(200) - 100.0f;
+    }
+    expect(rc_kriging(pixels, features, count, seeds, channels, weights, sums, NULL) == RC_OK, "rc_kriging refuses");
+    for (int64_t i = 0; i < pixels * channels; i++) {
+        double sum = 0.0, all = 0.0;
+        for (int64_t j = 0; j < count; j++) {
+            double squared = 0.0;
+            for (int n = 0; n < RC_FEATURES; n++) {
+                const double off = (double)features[i / channels * RC_FEATURES + n] - seeds[j * RC_FEATURES + n];
+                squared += off * off;
+            }
+            const double share = exp(-sqrt(squared)), weight = weights[j * channels + i % channels];
+            sum += weight * share;
+            all += fabs(weight) * share;
+        }
+        expect(fabs((double)sums[i] - sum) <= 1e-5 * all + 1e-30, "a sum of kriging differs");
+    }
+    note(sums, (size_t)(pixels * channels) * sizeof *sums);
+    free(features);
+    free(seeds);
+    free(weights);
+    free(sums);
+}
+
 static void one_round(void)
 {
     const int64_t h = 1 + below(below(4) ? 6 : 24), w = 1 + below(below(4) ? 6 : 24), size = rc_plane_size(h, w);
@@ -201,6 +241,7 @@ static void one_round(void)
     }
     check_nearest(&g, count, pixels, fields);
     check_blend(h, w, count, fields);
+    check_kriging();
 
     const int64_t beyond = below(9), outside = below(2) ? -1 - beyond : h * w + beyond;
     expect(rc_field(&g, 1, &outside, NULL, plane, NULL) == RC_BAD_SEED, "a seed outside is taken");

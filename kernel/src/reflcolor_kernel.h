@@ -19,9 +19,11 @@
 #define RC_API __attribute__((visibility("default")))
 #endif
 
-#define RC_ABI_VERSION 2
+#define RC_ABI_VERSION 3
 #define RC_SLACK 8
 #define RC_MAX_NEAREST 1024
+#define RC_FEATURES 8
+#define RC_MAX_CHANNELS 4
 
 enum {
     RC_OK = 0,
@@ -92,5 +94,11 @@ RC_API int32_t rc_blend_finish(int64_t count, const float *weight, float *color0
 RC_API int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
                                 int64_t count, const float *colors, float alpha, float *nearest, int32_t *index,
                                 float *weight, float *color0, float *color1, float *bound);
+
+/* For each of `pixels` rows of RC_FEATURES features, the sums over `count` seeds of weight * exp(-distance), distance
+ * being that of the features: one sum for each of `channels` (1 to RC_MAX_CHANNELS) weights of a seed. `sums` receives
+ * `pixels` rows of `channels`. `control->progress` is added pixels to. */
+RC_API int32_t rc_kriging(int64_t pixels, const float *features, int64_t count, const float *seeds, int32_t channels,
+                          const float *weights, float *sums, const rc_control *control);
 
 #endif

@@ -13,6 +13,8 @@ The seeds themselves tell how large it is, because the error of estimating each 
 
 import numpy as np
 
+from ..native import library
+from ..native.kriging import FEATURES, exponential_sums
 from ..scan.normals import surface_normals
 
 # What makes two pixels unlike: each of these is one unit of distance between their features.
@@ -26,7 +28,6 @@ SCALES = {
     # Opposite walls are 0.5 apart.
     "normal": 4.0,
 }
-FEATURES = 8
 NUGGETS = (0.02, 0.04, 0.08, 0.16, 0.32)
 MAX_SEEDS = 8000
 """The matrix of their covariances takes 0.5 GB."""
@@ -39,8 +40,9 @@ _SHARE_SEEDS = 30
 _SHARES = np.linspace(0, 1, 21)
 # Seeds are left out one by one in groups of at most this many: the cost grows with the cube.
 _GROUP = 1000
-# Of the matrix of covariances between pixels and seeds that is held at once.
-_CHUNK_VALUES = 1 << 21
+# Covariances between pixels and seeds between two looks at the wish to cancel, about 0.1 s; without the kernel, of the
+# matrix of them that is held at once.
+_CHUNK_VALUES, _CHUNK_VALUES_HELD = 1 << 26, 1 << 21
 
 
 def pixel_features(scan, luminance):
@@ -85,7 +87,7 @@ class Kriging:
         nuggets = _nuggets(covariance, colors, groups)
         weights = np.linalg.solve(covariance + np.diag(nuggets), np.column_stack([np.ones(len(colors)), colors]))
         self._mean = weights[:, 1:].sum(axis=0) / weights[:, 0].sum()
-        self._weights = np.ascontiguousarray((weights[:, 1:] - weights[:, :1] * self._mean).T)
+        self._weights = weights[:, 1:] - weights[:, :1] * self._mean
         self.residuals = np.empty_like(colors)
         """(S, 2): color of each seed, less what is estimated from the others."""
         for group in groups:
@@ -93,13 +95,19 @@ class Kriging:
 
     def chunks(self, count):
         """Return slices that part ``count`` pixels so that each part fits well into memory."""
-        step = max(1, _CHUNK_VALUES // len(self._features))
+        values = _CHUNK_VALUES if library.available() else _CHUNK_VALUES_HELD
+        step = max(1, values // len(self._features))
         return [slice(start, min(count, start + step)) for start in range(0, count, step)]
 
     def estimate(self, features):
-        """Return the (N, 2) float64 chrominance of pixels with (N, 8) features."""
+        """Return the (N, 2) chrominance of pixels with (N, 8) features: float32 by the kernel, else float64.
+
+        The two differ by 1e-3 at most (docs/performance.md).
+        """
+        if library.available():
+            return exponential_sums(features, self._features, self._weights) + self._mean.astype(np.float32)
         covariance = _covariance(np.asarray(features, np.float64), self._features)
-        return np.einsum("ns,cs->nc", covariance, self._weights) + self._mean
+        return np.einsum("ns,sc->nc", covariance, self._weights) + self._mean
 
 
 def _covariance(one, other):

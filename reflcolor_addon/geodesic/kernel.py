@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import Cancelled, ReflcolorError
-from .kernel_library import (
+from ..native.library import (
     ABI_VERSION,
     NO_MEMORY,
     CGraph,

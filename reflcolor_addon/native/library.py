@@ -1,4 +1,4 @@
-"""Loads the native kernel's library and calls it: types, error codes, cancelling.
+"""The native kernel's library and how its functions are called: types, error codes, cancelling.
 
 The library lives in the package ``reflcolor_kernel`` (one wheel per platform, bundled with the extension) and is called
 through ctypes, so that the interpreter is free while it runs and threads of Python run side by side.
@@ -11,9 +11,9 @@ import numpy as np
 
 from ..errors import Cancelled, ReflcolorError
 
-ABI_VERSION = 2
+ABI_VERSION = 3
 
-NO_MEMORY = "the geodesic kernel ran out of memory: use a larger stride or fewer nearest seeds"
+NO_MEMORY = "the kernel ran out of memory: use a larger stride or fewer nearest seeds"
 _OK, _CANCELLED, _MEMORY = 0, 1, 2
 _REFUSED = {
     -1: "a null pointer",
@@ -57,6 +57,7 @@ _FUNCTIONS = {
         *(_i32, _graph_pointer, _i64, _i64, _i32, _pointer, _i64, _pointer, _f32),
         *[_pointer] * 6,
     ),
+    "rc_kriging": (_i32, _i64, _pointer, _i64, _pointer, _i32, *[_pointer] * 2, _control_pointer),
 }
 
 
@@ -108,7 +109,7 @@ def check(code):
     if code == _MEMORY:
         raise MemoryError(NO_MEMORY)
     if code != _OK:
-        raise ReflcolorError(f"the geodesic kernel refused {_REFUSED.get(code, f'its arguments (code {code})')}")
+        raise ReflcolorError(f"the kernel refused {_REFUSED.get(code, f'its arguments (code {code})')}")
 
 
 def address(array):
