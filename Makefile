@@ -6,6 +6,7 @@
 # make dist    the zip to hand out: for this platform, with the wheels of every Python that a Blender runs
 # make dist-all  the same for every platform that has the wheels
 # make bench   how fast the engine is, beside others (python -m benchmarks.geodesic); a quarter of an hour
+# make bench-job  the whole job, part by part, beside an older build (python -m benchmarks.job); hours; BASE=checkout
 # make fuzz    random images through the kernel under sanitizers (tools/fuzz_kernel.sh); a few minutes
 # make lint    the style alone;  make format  mends it
 # make clean   removes what was built;  make distclean  the environments, too
@@ -16,9 +17,11 @@ VENV ?= .venv
 PYTHON ?=
 # Set by make test in CI only: the one Python version to take.
 FOR_PYTHON ?=
+# Of make bench-job: the checkout of the older build.
+BASE ?=
 RUN = $(VENV)/bin/python
 
-.PHONY: help setup kernel build dist dist-all demo bench fuzz lint format test test-one test-all test-window lock clean distclean
+.PHONY: help setup kernel build dist dist-all demo bench bench-job fuzz lint format test test-one test-all test-window lock clean distclean
 
 help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
@@ -46,6 +49,9 @@ demo: build
 
 bench: setup kernel
 	@$(RUN) -m benchmarks.geodesic
+
+bench-job: build
+	@tools/bench_job.sh $(RUN) $(BASE)
 
 fuzz:
 	@tools/fuzz_kernel.sh

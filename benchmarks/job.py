@@ -1,8 +1,9 @@
 """The whole job of a user, part by part, beside an older build: python -m benchmarks.job BASE [CASE ...]
 
-BASE is a checkout of the older build, both with a zip in dist/ (`make bench-job` sees to that). Every run is a process of
-its own, as a user starts it, in the same Blender; the two builds take turns. A part is what a run with it takes more than a run without it. Seconds are
-of the processor, of all processes of a run together; memory is the most that they held at once. Figures are medians.
+BASE is a checkout of the older build, both with a zip in dist/ (`make bench-job` sees to that). Every run is a process
+of its own, as a user starts it, in the same Blender; the two builds take turns. A part is what a run with it takes more
+than a run without it. Seconds are of the processor, of all processes of a run together; memory is the most that they
+held at once. Figures are medians.
 
     python -m benchmarks.job --growth [CASE ...]      one build, from 1 to 40 megapixels
 
@@ -26,7 +27,7 @@ from reflcolor_addon.files.writers import write_e57, write_ptx
 
 FOLDER = ROOT / "build" / "bench-job"
 CONES = ROOT / "examples" / "cones"
-# Name: rows, columns and suffix of the scan `doria`, enlarged; None is the example. Last, whether a picture is rendered.
+# Name: rows, columns and suffix of the scan `doria`, enlarged (None: the example); whether a picture is rendered.
 CASES = {
     "cones": (None, True),
     "doria": ((760, 1135, "ptx"), True),

@@ -32,8 +32,8 @@ TARGETS = {
 }
 
 # No contraction of a * b + c: it would round differently where the processor has such an instruction. No x86
-# instructions beyond the base set, which every 64-bit processor has, but where src/wide.h looks up what there is. Nobody
-# asks for errno, which would keep square roots from being taken several at once.
+# instructions beyond the base set, which every 64-bit processor has, but where src/wide.h looks up what there is.
+# Nobody asks for errno, which would keep square roots from being taken several at once.
 FLAGS = ["-std=c11", "-O2", "-ffp-contract=off", "-fno-math-errno", "-fno-sanitize=all", "-fvisibility=hidden"]
 FLAGS += ["-shared", "-s", "-g0"]
 _EPOCH = (1980, 1, 1, 0, 0, 0)
