@@ -4,7 +4,6 @@ For every scan of benchmarks/real_scans.py a picture OUT/NAME.png: the reflectan
 true one; below, the mesh rendered in its colorized and in its true colors. Runs in the bpy wheel.
 """
 
-import importlib
 import sys
 import tempfile
 from dataclasses import replace
@@ -14,6 +13,7 @@ import cv2
 import numpy as np
 
 from benchmarks import real_scans
+from benchmarks.experiments.meshes import Renderer
 from reflcolor_addon import Seeds, colorize
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -38,29 +38,21 @@ def own_seeds(scan):
 
 def main():
     """Make the pictures of all scans, or of those named on the command line."""
-    sys.path.insert(0, str(ROOT / "tools"))
-    session, build = importlib.import_module("blender_session"), importlib.import_module("build_extension")
     folder, names = Path(sys.argv[1]), sys.argv[2:] or real_scans.NAMES
     folder.mkdir(parents=True, exist_ok=True)
     scans = {name: real_scans.load(name, ROOT.parent / "shared" / "data") for name in names}
     with tempfile.TemporaryDirectory() as resources:
-        session.start(build.zip_path(build.host_platform(), (build.running_python(),)), Path(resources))
-        write_results = importlib.import_module(f"{session.EXTENSION}.operators.scene.write_results").write_results
+        renderer = Renderer(Path(resources))
         for name, scan in scans.items():
             colorized = colorize(scan, own_seeds(scan))
-            truth = replace(colorized, rgb=np.where(scan.valid[..., None], scan.color, 0))
+            truth = np.where(scan.valid[..., None], scan.color, 0)
             gray = colorize(scan, replace(colorized.seeds, rgb=np.full_like(colorized.seeds.rgb, 128)))
-            flat = [fitted(cell.rgb, WIDTH // 3) for cell in (gray, colorized, truth)]
-            renders = []
-            for index, cell in enumerate((colorized, truth)):
-                path = folder / f".{name}{index}.png"
-                write_results(scan, cell, [], path, lambda fraction, text: None, {})
-                renders.append(fitted(cv2.imread(str(path))[..., ::-1], WIDTH // 2))
-                path.unlink()
+            flat = [fitted(rgb, WIDTH // 3) for rgb in (gray.rgb, colorized.rgb, truth)]
+            renders = [fitted(renderer.picture([scan], [rgb]), WIDTH // 2) for rgb in (colorized.rgb, truth)]
             picture = np.vstack([np.hstack(flat), np.hstack(renders)])
             cv2.imwrite(str(folder / f"{name}.png"), picture[..., ::-1])
             print(f"{folder / name}.png: {len(colorized.seeds)} seeds", flush=True)
-    session.end(0)
+    renderer.end(0)
 
 
 def fitted(picture, width):

@@ -2,8 +2,8 @@
 
 import bpy
 
-from ..reflcolor_addon.color.colorizer import colorize
-from ..reflcolor_addon.progress import in_turn
+from ..reflcolor_addon.batch.pipeline import colorize_jobs
+from ..reflcolor_addon.batch.scan_job import ScanJob
 from .scene import polls
 from .scene.colorized_object import show_colorization
 from .scene.notices import tell, tell_together
@@ -31,38 +31,45 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
     def prepare(self, context):
         scans, self._left_out = polls.fitting_scans(context, polls.not_colorable)
         self._settings = core_settings(self, context.scene.reflcolor, COLORIZE_NAMES)
-        # By names, not objects: they may be gone, or be others after an undo, when the work is done.
-        self._seeds = {obj.name: seeds_of(obj) for obj in scans}
-        return in_turn({obj.name: colorizing(obj, self._seeds[obj.name], self._settings) for obj in scans})
+        # Jobs hold names, not objects: those may be gone, or be others after an undo, when the work is done.
+        jobs = [_job(obj, self._settings) for obj in scans]
 
-    def finish(self, context, results):
+        def work(progress, cancelled):
+            colorize_jobs(jobs, self._settings, progress=progress, cancelled=cancelled)
+            return jobs
+
+        return work
+
+    def finish(self, context, jobs):
         done = []
-        for (name, seeds), result in zip(self._seeds.items(), results, strict=True):
-            obj = bpy.data.objects.get(name)
-            if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != result.rgb.shape[:2]:
-                self.report({"WARNING"}, told("{name} is gone; its colors were dropped", name=name))
+        for job in jobs:
+            obj = bpy.data.objects.get(job.name)
+            if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != job.colorization.rgb.shape[:2]:
+                self.report({"WARNING"}, told("{name} is gone; its colors were dropped", name=job.name))
                 continue
             # Raises where the mesh cannot take them, before any is changed.
             grid_indices(obj)
-            done.append((obj, seeds, result))
-        for obj, seeds, result in done:
+            done.append((obj, job))
+        for obj, job in done:
+            result = job.colorization
             show_colorization(obj, result)
-            record_provenance(obj, window_report(obj, result, self._settings, seeds))
+            record_provenance(obj, window_report(obj, result, self._settings, job.seeds))
             said = told("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
-            tell(self, obj, said, result.warnings, seeds, one_of_several=len(results) > 1)
-        objects = [obj for obj, *_ in done]
+            tell(self, obj, said, result.warnings, job.seeds, one_of_several=len(jobs) > 1)
+        objects = [obj for obj, _ in done]
         names = ", ".join(obj.name for obj in objects)
         together = told("Colorized {count} scans: {names}", count=len(objects), names=names)
         tell_together(self, objects, together, self._left_out)
 
 
-def colorizing(obj, seeds, settings):
-    """Return ``work(progress, cancelled)`` that gives the Colorization of an object: the preview's, where it has it."""
-    previewed = live_update.finished(obj, settings)
-    if previewed is not None:
-        return lambda progress, cancelled: previewed
-    read_scan = scan_reader(obj)
-    return lambda progress, cancelled: colorize(read_scan(), seeds, settings, progress=progress, cancelled=cancelled)
+def _job(obj, settings):
+    """The job of an object's scan; it is done already where the preview has its colors."""
+    return ScanJob(
+        name=obj.name,
+        scan=scan_reader(obj),
+        seeds=seeds_of(obj),
+        colorization=live_update.finished(obj, settings),
+    )
 
 
 classes = (REFLCOLOR_OT_colorize,)

@@ -2,8 +2,8 @@
 
 import bpy
 
+from ..reflcolor_addon.batch.blender_tasks import BlenderTasks
 from ..reflcolor_addon.cli import main as cli
-from ..reflcolor_addon.cli.blender_door import BlenderDoor
 from .scene.provenance_file import read_provenance
 from .scene.simulate_file import simulate_file
 from .scene.write_results import write_results
@@ -11,10 +11,10 @@ from .scene.write_results import write_results
 
 def run(argv):
     """Run the command line with all that Blender can do; return the exit status."""
-    door = BlenderDoor(
+    tasks = BlenderTasks(
         version=bpy.app.version_string,
         write_scene=write_results,
         simulate=simulate_file,
         read_provenance=read_provenance,
     )
-    return cli.main(argv, prog="blender -b --command reflcolor", blender=door)
+    return cli.main(argv, prog="blender -b --command reflcolor", blender=tasks)

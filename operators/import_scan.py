@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..reflcolor_addon.batch.inputs import scan_files
+from ..reflcolor_addon.batch.paths import scan_files
 from ..reflcolor_addon.errors import ScanError
 from ..reflcolor_addon.files.images import IMAGE_SUFFIXES
 from ..reflcolor_addon.files.readers import SCAN_SUFFIXES, read_scans

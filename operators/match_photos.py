@@ -2,8 +2,10 @@
 
 import bpy
 
+from ..reflcolor_addon.batch.pipeline import find_seeds
+from ..reflcolor_addon.batch.scan_job import ScanJob
 from ..reflcolor_addon.errors import SeedsError
-from ..reflcolor_addon.matching import draw_matches, match_site
+from ..reflcolor_addon.matching import draw_matches
 from .scene import polls
 from .scene.images import read_pixels, write_image
 from .scene.notices import tell, tell_together
@@ -30,41 +32,40 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
     def prepare(self, context):
         objects, self._left_out = polls.fitting_scans(context, polls.foreign_seeds)
         listed = context.scene.reflcolor.photos
-        self._object_names = [obj.name for obj in objects]
         photos = [(photo.image.name, read_pixels(photo.image)) for photo in listed if photo.image is not None]
         if any(pixels is None for _, pixels in photos):
             raise SeedsError(told("a photo of the list cannot be read; remove it and load it again"))
-        readers, settings = list(map(scan_reader, objects)), core_settings(self, context.scene.reflcolor, MATCH_NAMES)
-        self._settings = settings
-        hand = [seeds_of(obj, wanted=lambda seeds: seeds.by_hand) for obj in objects]
-        kept = [seeds_of(obj, wanted=lambda seeds: ~seeds.by_hand & seeds.locked) for obj in objects]
+        settings = self._settings = core_settings(self, context.scene.reflcolor, MATCH_NAMES)
+        jobs = [
+            ScanJob(
+                name=obj.name,
+                scan=scan_reader(obj),
+                hand=seeds_of(obj, wanted=lambda seeds: seeds.by_hand),
+                kept=seeds_of(obj, wanted=lambda seeds: ~seeds.by_hand & seeds.locked),
+            )
+            for obj in objects
+        ]
 
         def work(progress, cancelled):
-            scans = [read_scan() for read_scan in readers]
-            matchings = match_site(
-                scans, photos, settings, hand=hand, kept=kept, progress=progress, cancelled=cancelled
-            )
-            pictures = [
-                draw_matches(scan, photos, matching.seeds) for scan, matching in zip(scans, matchings, strict=True)
-            ]
-            return list(zip(matchings, pictures, strict=True))
+            find_seeds(jobs, photos, settings, progress=progress, cancelled=cancelled)
+            return [(job, draw_matches(job.scan, photos, job.seeds)) for job in jobs]
 
         return work
 
     def finish(self, context, results):
         done = []
-        for object_name, (matching, picture) in zip(self._object_names, results, strict=True):
-            obj = bpy.data.objects.get(object_name)
+        for job, picture in results:
+            obj = bpy.data.objects.get(job.name)
             if obj is None or not obj.reflcolor.rows:
-                self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=object_name))
+                self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=job.name))
                 continue
-            take_over_seeds(obj, matching.seeds)
-            record_matching(obj, matching, self._settings, MATCH_NAMES)
+            take_over_seeds(obj, job.seeds)
+            record_matching(obj, job.matching, self._settings, MATCH_NAMES)
             obj.reflcolor.matches_image = write_image(
                 own_image(obj, "matches_image"), f"{obj.name} Matches", picture, is_data=False
             )
-            self._tell(obj, matching)
-            done.append((obj, matching))
+            self._tell(obj, job.matching, one_of_several=len(results) > 1)
+            done.append((obj, job.matching))
         matches = [(obj.name, {photo.name: photo for photo in matching.photos}) for obj, matching in done]
         for photo in context.scene.reflcolor.photos:
             if photo.image is not None:
@@ -74,10 +75,10 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         together = told("Found seeds for {count} scans: {counts}", count=len(done), counts=counts)
         tell_together(self, [obj for obj, _ in done], together, self._left_out)
 
-    def _tell(self, obj, matching):
+    def _tell(self, obj, matching, *, one_of_several):
         said = told("Found {count} seeds for {name}", count=len(matching.seeds), name=obj.name)
         details = [f"{photo.name}: {photo.note}" for photo in matching.photos]
-        tell(self, obj, said, matching.warnings, details=details, one_of_several=len(self._object_names) > 1)
+        tell(self, obj, said, matching.warnings, details=details, one_of_several=one_of_several)
 
 
 def take_over_seeds(obj, seeds):

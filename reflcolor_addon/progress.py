@@ -1,27 +1,22 @@
-"""Several pieces of long work as one."""
+"""Progress of several pieces of work as that of one."""
+
+from .messages import Message
 
 
-def in_turn(pieces):
-    """Return ``work(progress, cancelled)`` that does pieces of work one after the other and returns their results.
+def part(progress, number, count, name):
+    """Return the ``progress(fraction, text)`` of one of several equal pieces of work.
 
     Parameters
     ----------
-    pieces : dict of str to callable
-        Each is called as ``piece(progress, cancelled)``; either may be None. Where there are several, each has an
-        equal share of the progress, and its name stands before what it says.
+    progress : callable or None
+        That of all of them; with None, nothing is told.
+    number : int
+        Which piece, from 0.
+    count : int
+        How many there are. Where it is one, it tells what it tells alone.
+    name : str
+        Stands before what it tells.
     """
-
-    def work(progress, cancelled):
-        return [
-            piece(_share(progress, number, len(pieces), name), cancelled)
-            for number, (name, piece) in enumerate(pieces.items())
-        ]
-
-    return work
-
-
-def _share(progress, number, count, name):
-    """A ``progress(fraction, text)`` for one of ``count`` pieces."""
     if progress is None or count == 1:
         return progress
-    return lambda fraction, text: progress((number + fraction) / count, f"{name}: {text}")
+    return lambda fraction, text: progress((number + fraction) / count, Message("{name}: {text}", name=name, text=text))

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from small_scans import random_scan
 
-from reflcolor_addon.cli.blender_door import BlenderDoor
+from reflcolor_addon.batch.blender_tasks import BlenderTasks
 from reflcolor_addon.cli.main import main
 from reflcolor_addon.files.writers import write_ptx
 
@@ -40,13 +40,13 @@ def run_cli(cli_folder, capfd):
     return run
 
 
-def blender_door(**acts):
+def blender_tasks(**acts):
     """A Blender for the command line that can do only what is given."""
 
     def cannot(*_arguments):
         raise AssertionError("was not to be called")
 
-    return BlenderDoor(
+    return BlenderTasks(
         version="5.2.2 LTS", **dict.fromkeys(("write_scene", "simulate", "read_provenance"), cannot) | acts
     )
 

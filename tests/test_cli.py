@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import COLORIZE, SHAPE, assert_refused, blender_door, run_process, save_seeds
+from command_line import COLORIZE, SHAPE, assert_refused, blender_tasks, run_process, save_seeds
 from small_scans import random_scan
 
 from reflcolor_addon import OutputError, Seeds, Settings, colorize, read_scans
@@ -218,16 +218,16 @@ def test_real_scans_are_described(run_cli, data_dir):
 def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder):
     calls = []
 
-    def write_scene(results, paths, render, progress):
-        ((scan, colorization, provenance),) = results
+    def write_scene(jobs, paths, render, progress):
+        (job,) = jobs
         progress(0.5, "Writing")
-        calls.append((scan.name, colorization.rgb.shape, paths, render, provenance))
+        calls.append((job.scan.name, job.colorization.rgb.shape, paths, render, job.report))
         for path in (*paths, render):
             path.write_bytes(b"scene")
 
     status, out, err = run_cli(
         *COLORIZE, "-o", "a.blend", "-o", "a.png", "-o", "a.GLB", "--render", "view.png", "--report", "r.json",
-        blender=blender_door(write_scene=write_scene),
+        blender=blender_tasks(write_scene=write_scene),
     )  # fmt: skip
     assert (status, err) == (0, "")
     assert out.split() == [
@@ -269,7 +269,7 @@ def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cl
         raise OutputError("b.glb: cannot be written (No space left on device)")
 
     outcome = run_cli(
-        *COLORIZE, "-o", "a.blend", "-o", "b.glb", "-o", "c.png", blender=blender_door(write_scene=write_scene)
+        *COLORIZE, "-o", "a.blend", "-o", "b.glb", "-o", "c.png", blender=blender_tasks(write_scene=write_scene)
     )
     assert_refused(outcome, 1, "b.glb: cannot be written", "; already written: a.blend\n")
     assert not (cli_folder / "c.png").exists()

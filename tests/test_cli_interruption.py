@@ -8,7 +8,7 @@ import threading
 
 import numpy as np
 import pytest
-from command_line import COLORIZE, blender_door, process_line
+from command_line import COLORIZE, blender_tasks, process_line
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, Seeds, colorize
@@ -30,7 +30,7 @@ def interrupting(monkeypatch):
 
             return colorize(scan, seeds, settings, progress=told, cancelled=cancelled)
 
-        monkeypatch.setattr("reflcolor_addon.batch.results.colorize", interrupted)
+        monkeypatch.setattr("reflcolor_addon.batch.pipeline.colorize", interrupted)
 
     return arrange
 
@@ -64,7 +64,9 @@ def test_an_interruption_while_blender_writes_ends_it_and_names_what_is_there(ru
             progress(0.5, "Writing b.glb")
         raise Cancelled
 
-    status, out, err = run_cli(*COLORIZE, "-o", "a.blend", "-o", "b.glb", blender=blender_door(write_scene=write_scene))
+    status, out, err = run_cli(
+        *COLORIZE, "-o", "a.blend", "-o", "b.glb", blender=blender_tasks(write_scene=write_scene)
+    )
     assert (status, out, err) == (130, "", "error: interrupted; already written: a.blend\n")
 
 

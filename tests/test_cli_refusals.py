@@ -213,7 +213,7 @@ def test_running_out_of_memory_is_said_in_one_line(run_cli, cli_folder, monkeypa
     def exhausted(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr("reflcolor_addon.batch.results.colorize", exhausted)
+    monkeypatch.setattr("reflcolor_addon.batch.pipeline.colorize", exhausted)
     assert_refused(run_cli(*COLORIZE, "-o", "out.png"), 1, "garage.ptx: not enough memory")
     assert not (cli_folder / "out.png").exists()
 
@@ -248,6 +248,6 @@ def test_a_defect_is_not_hidden(run_cli, monkeypatch):
     def broken(*_, **__):
         raise ZeroDivisionError
 
-    monkeypatch.setattr("reflcolor_addon.batch.results.colorize", broken)
+    monkeypatch.setattr("reflcolor_addon.batch.pipeline.colorize", broken)
     with pytest.raises(ZeroDivisionError):
         run_cli(*COLORIZE, "-o", "out.png")

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import painted_room
 import pytest
-from command_line import COLORIZE, SHAPE, assert_refused, blender_door
+from command_line import COLORIZE, SHAPE, assert_refused, blender_tasks
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, Seeds, Settings, colorize, read_scans
-from reflcolor_addon.batch.site import distinct, safe_label
+from reflcolor_addon.batch.read import distinct, safe_label
 from reflcolor_addon.files.images import read_image, write_png
 from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.matching import match_site
@@ -229,7 +229,7 @@ def test_colors_from_photos_are_those_of_the_seeds_found_in_them(run_cli, painte
         calls.append(len(scans))
         return match_site(scans, *arguments, **options)
 
-    monkeypatch.setattr("reflcolor_addon.matching.match_site", counted)
+    monkeypatch.setattr("reflcolor_addon.batch.pipeline.match_site", counted)
     files_and_photo = ("south.ptx", "east.ptx", "--photo", "view.png")
     assert run_cli("seeds", *files_and_photo, *PAPER, "-o", "{scan}.json")[0] == 0
     status, out, err = run_cli("colorize", *files_and_photo, *PAPER, "-o", "{scan}.png", "--report", "r_{scan}.json")
@@ -249,7 +249,7 @@ def test_hand_picked_seeds_may_be_there_for_some_scans_only(run_cli, painted):
     hand = [Seeds.load(f"{name}.json").reason.count("hand") for name in ("south", "east")]
     assert hand == [0, 1]
     (painted / "east.hand.json").unlink()
-    assert_refused(run_cli(*arguments, "-o", "{scan}.json"), 1, "expected south.hand.json or east.hand.json")
+    assert_refused(run_cli(*arguments, "-o", "{scan}.json"), 1, "expected one of south.hand.json, east.hand.json")
 
 
 # Scenes, with Blender
@@ -258,8 +258,8 @@ def test_hand_picked_seeds_may_be_there_for_some_scans_only(run_cli, painted):
 def test_a_scene_holds_all_scans_and_one_with_the_placeholder_each(run_cli, site):
     calls = []
 
-    def write_scene(results, paths, render, progress):
-        made = [(scan.name, colorization.rgb, report) for scan, colorization, report in results]
+    def write_scene(jobs, paths, render, progress):
+        made = [(job.name, job.colorization.rgb, job.report) for job in jobs]
         progress(0.5, "Writing")
         calls.append(([name for name, _, _ in made], list(map(str, paths)), render and str(render)))
         for path in (*paths, *filter(None, [render])):
@@ -274,7 +274,7 @@ def test_a_scene_holds_all_scans_and_one_with_the_placeholder_each(run_cli, site
             ]
 
     options = ("-o", "{scan}.glb", "-o", "all.blend", "--render", "all.png", "--report", "{scan}_r")
-    status, out, err = run_cli(*SITE, *options, blender=blender_door(write_scene=write_scene))
+    status, out, err = run_cli(*SITE, *options, blender=blender_tasks(write_scene=write_scene))
     assert (status, err) == (0, "")
     assert calls == [
         (["south"], ["south.glb"], None),
@@ -288,19 +288,18 @@ def test_a_scene_holds_all_scans_and_one_with_the_placeholder_each(run_cli, site
 def test_a_scan_is_let_go_when_nothing_needs_it_any_more(run_cli, site):
     met = []
 
-    def write_scene(results, paths, _render, _progress):
-        for scan, _, _ in results:
+    def write_scene(jobs, paths, _render, _progress):
+        for job in jobs:
             assert all(earlier() is None for earlier in met)
-            met.append(weakref.ref(scan))
-            del scan
+            met.append(weakref.ref(job.scan))
         for path in paths:
             path.write_bytes(b"scene")
 
-    door = blender_door(write_scene=write_scene)
-    assert run_cli(*SITE, "-o", "{scan}.glb", blender=door)[0] == 0
+    tasks = blender_tasks(write_scene=write_scene)
+    assert run_cli(*SITE, "-o", "{scan}.glb", blender=tasks)[0] == 0
     assert len(met) == 2
     met.clear()
-    assert run_cli(*SITE, "-o", "all.glb", blender=door)[0] == 0
+    assert run_cli(*SITE, "-o", "all.glb", blender=tasks)[0] == 0
     assert len(met) == 2
 
 
@@ -312,7 +311,7 @@ def test_an_interruption_leaves_whole_files_and_names_them(run_cli, site):
         paths[0].write_bytes(b"scene")
 
     before = files(site)
-    outcome = run_cli(*SITE, "-o", "{scan}.glb", "-o", "{scan}.png", blender=blender_door(write_scene=write_scene))
+    outcome = run_cli(*SITE, "-o", "{scan}.glb", "-o", "{scan}.png", blender=blender_tasks(write_scene=write_scene))
     assert outcome == (130, "", "error: interrupted; already written: south.glb\n")
     assert files(site) == sorted([*before, Path("south.glb")])
 
@@ -323,7 +322,7 @@ def test_images_alone_are_written_when_all_scans_are_colorized(run_cli, site, mo
             raise Cancelled
         return colorize(scan, *arguments, **options)
 
-    monkeypatch.setattr("reflcolor_addon.batch.results.colorize", failing)
+    monkeypatch.setattr("reflcolor_addon.batch.pipeline.colorize", failing)
     before = files(site)
     assert run_cli(*SITE, "-o", "{scan}.png") == (130, "", "error: interrupted\n")
     assert files(site) == before

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from command_line import COLORIZE, assert_refused, blender_door
+from command_line import COLORIZE, assert_refused, blender_tasks
 from hypothesis import given
 from hypothesis import strategies as st
 from small_scans import random_scan
@@ -92,8 +92,8 @@ def printed(run_cli, cli_folder):
     (cli_folder / "x.blend").write_bytes(b"scene")
 
     def run(objects, *arguments):
-        door = blender_door(read_provenance=lambda _path: list(objects.items()))
-        return run_cli("provenance", "x.blend", *arguments, blender=door)
+        tasks = blender_tasks(read_provenance=lambda _path: list(objects.items()))
+        return run_cli("provenance", "x.blend", *arguments, blender=tasks)
 
     return run
 
@@ -163,13 +163,15 @@ def test_what_the_verb_cannot_print_is_one_line(printed, objects, arguments, sta
 
 def test_the_verb_needs_blender_and_a_file(run_cli, cli_folder):
     assert_refused(run_cli("provenance", "x.blend"), 2, "needs Blender")
-    assert_refused(run_cli("provenance", "x.blend", blender=blender_door()), 1, "x.blend: no such file")
+    assert_refused(run_cli("provenance", "x.blend", blender=blender_tasks()), 1, "x.blend: no such file")
 
 
 def test_what_colorize_reports_is_what_the_verb_would_print(run_cli, cli_folder):
     kept = []
-    door = blender_door(write_scene=lambda results, paths, *_: kept.extend(results) or paths[0].touch())
-    assert run_cli(*COLORIZE, "-o", "a.blend", "--report", "r.json", blender=door)[0] == 0
-    found = outline(parse_provenance(json.dumps(kept[0][-1])))
+    tasks = blender_tasks(
+        write_scene=lambda results, paths, *_: kept.extend(job.report for job in results) or paths[0].touch()
+    )
+    assert run_cli(*COLORIZE, "-o", "a.blend", "--report", "r.json", blender=tasks)[0] == 0
+    found = outline(parse_provenance(json.dumps(kept[0])))
     assert found.sources == {"hand": 2} and found.created
     assert [role for role, _, _ in found.inputs] == ["scan", "seeds"]

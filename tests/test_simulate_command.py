@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from command_line import assert_refused, blender_door
+from command_line import assert_refused, blender_tasks
 
 from reflcolor_addon import read_scans
 from reflcolor_addon.files.images import read_image
@@ -146,8 +146,8 @@ def asked(run_cli, cli_folder):
 
     def run(*arguments):
         requests = []
-        door = blender_door(simulate=lambda request, _progress, _written: requests.append(request))
-        return run_cli(*arguments, blender=door), requests
+        tasks = blender_tasks(simulate=lambda request, _progress, _written: requests.append(request))
+        return run_cli(*arguments, blender=tasks), requests
 
     return run
 
@@ -237,7 +237,7 @@ def test_files_that_were_written_before_a_failure_are_named(run_cli, cli_folder)
         written.append(request.output)
         raise MemoryError
 
-    outcome = run_cli(*SIMULATE, blender=blender_door(simulate=simulate))
+    outcome = run_cli(*SIMULATE, blender=blender_tasks(simulate=simulate))
     assert_refused(outcome, 1, "yard.blend: not enough memory", "already written: yard.ptx")
 
 

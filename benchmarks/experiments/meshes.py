@@ -27,7 +27,7 @@ class Renderer:
         self._path = folder / "render.png"
         names = ("scan_object", "render")
         self._objects, self._render = (
-            importlib.import_module(f"{self._session.EXTENSION}.operators.{name}") for name in names
+            importlib.import_module(f"{self._session.EXTENSION}.operators.scene.{name}") for name in names
         )
         core = importlib.import_module(f"{self._session.EXTENSION}.reflcolor_addon.scan.object_arrays")
         self._object_arrays = core.object_arrays

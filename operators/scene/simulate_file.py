@@ -2,7 +2,7 @@
 
 import bpy
 
-from ...reflcolor_addon.batch.outputs import tracked
+from ...reflcolor_addon.batch.paths import tracked
 from ...reflcolor_addon.errors import ReflcolorError, UsageError
 from .blender_errors import blender_reason
 from .simulation import Simulation, leveled_pose, photo_cameras, simulation_steps

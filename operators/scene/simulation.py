@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...reflcolor_addon.batch.outputs import check_outputs
+from ...reflcolor_addon.batch.paths import check_outputs
 from ...reflcolor_addon.errors import OutputError, SettingsError
 from ...reflcolor_addon.files.atomic import written_atomically
 from ...reflcolor_addon.files.images import write_png

@@ -7,6 +7,7 @@ import bpy
 
 from ...reflcolor_addon.errors import OutputError
 from ...reflcolor_addon.files.atomic import written_atomically
+from ...reflcolor_addon.messages import Message
 from ...reflcolor_addon.scan.object_arrays import object_arrays
 from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
@@ -16,13 +17,13 @@ from .scan_object import CONFIDENCE, NEAREST_SEED, add_scan_object
 from .seed_list import append_seeds
 
 
-def write_results(results, paths, picture, progress):
+def write_results(jobs, paths, picture, progress):
     """Write colorized scans to every path, in the format of its suffix, and render a picture of them.
 
     Parameters
     ----------
-    results : iterable of (Scan, Colorization, dict)
-        The dictionary is the report; it is kept with the scan's object.
+    jobs : iterable of ScanJob
+        Each is colorized and has its report, which is kept with the scan's object.
     paths : list of Path
         Files to write: .blend, .glb or .ply.
     picture : Path or None
@@ -38,9 +39,9 @@ def write_results(results, paths, picture, progress):
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     context = bpy.context
     objects = []
-    for result in results:
+    for job in jobs:
         progress(0.0, "Building the scene")
-        objects.append(_add_object(context, *result))
+        objects.append(_add_object(context, job))
     for obj in objects:
         obj.select_set(True)
     context.view_layer.objects.active = objects[0]
@@ -51,15 +52,15 @@ def write_results(results, paths, picture, progress):
     if picture is not None:
         steps.append((picture, lambda path: render(context, path)))
     for done, (path, write) in enumerate(steps):
-        progress(done / len(steps), f"Writing {path.name}")
+        progress(done / len(steps), Message("Writing {name}", name=path.name))
         _write(path, write)
 
 
-def _add_object(context, scan, colorization, report):
-    obj = add_scan_object(context, object_arrays(scan))
-    append_seeds(obj, colorization.seeds)
-    show_colorization(obj, colorization)
-    record_provenance(obj, report)
+def _add_object(context, job):
+    obj = add_scan_object(context, object_arrays(job.scan))
+    append_seeds(obj, job.colorization.seeds)
+    show_colorization(obj, job.colorization)
+    record_provenance(obj, job.report)
     return obj
 
 

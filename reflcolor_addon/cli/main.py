@@ -6,11 +6,11 @@ Exit status: 0 done, 1 bad input, 2 wrong usage, 130 interrupted. Whatever is wr
 import argparse
 from functools import partial
 
+from ..batch.session import Session
 from ..errors import Cancelled, ReflcolorError, UsageError
 from ..version import __version__
 from .console import Console
 from .interruption import Interruption
-from .session import Session
 from .verbs import VERBS
 
 DONE, BAD_INPUT, WRONG_USAGE = 0, 1, 2
@@ -25,7 +25,7 @@ def main(argv, *, prog="python -m reflcolor_addon", blender=None):
         The arguments, without the program's name.
     prog : str
         How the person called the program, for messages.
-    blender : BlenderDoor, optional
+    blender : BlenderTasks, optional
         What only Blender can do. Without it, asking for that is wrong usage.
     """
     console = Console()
@@ -37,7 +37,7 @@ def main(argv, *, prog="python -m reflcolor_addon", blender=None):
     except SystemExit as end:  # how argparse ends after --help and --version
         return int(end.code or 0)
     with Interruption() as interruption:
-        session = Session(console=console, cancelled=interruption.requested, blender=blender)
+        session = Session(say=console.print, show=console.progress, cancelled=interruption.requested, blender=blender)
         try:
             arguments.run(arguments, session)
             for warning in session.warnings:

@@ -4,7 +4,7 @@ import json
 import math
 from pathlib import Path
 
-from ...batch.site import choose_scan
+from ...batch.read import choose_scan
 from ...color.evaluation import evaluate
 from ...errors import ImageError, ScanError
 from ...files.images import read_image
@@ -48,9 +48,9 @@ def run(arguments, session):
     figures = evaluate(rgb, truth, compared)
     if arguments.json:
         document = {"format": FORMAT, "version": VERSION, "scan": {"name": scan.name, "index": index}, **figures}
-        session.console.print(json.dumps(_finite(document), indent=2, allow_nan=False))
+        session.say(json.dumps(_finite(document), indent=2, allow_nan=False))
     else:
-        session.console.print(_as_text(figures))
+        session.say(_as_text(figures))
 
 
 def _image_of(scan, path):

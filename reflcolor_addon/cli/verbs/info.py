@@ -22,9 +22,9 @@ def run(arguments, session):
     descriptions = [describe(index, scan) for index, scan in enumerate(scans, 1)]
     if arguments.json:
         document = {"format": FORMAT, "version": VERSION, "file": str(arguments.input), "scans": descriptions}
-        session.console.print(json.dumps(document, indent=2, allow_nan=False))
+        session.say(json.dumps(document, indent=2, allow_nan=False))
     else:
-        session.console.print("\n".join(_as_text(description) for description in descriptions))
+        session.say("\n".join(_as_text(description) for description in descriptions))
     session.warnings += [warning for scan in scans for warning in scan.warnings]
 
 

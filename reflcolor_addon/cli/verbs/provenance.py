@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from ...batch.outputs import require_blender
+from ...batch.blender_tasks import require_blender
 from ...errors import ReflcolorError, UsageError
 from ...report.provenance import outline, parse_provenance
 
@@ -55,9 +55,9 @@ def run(arguments, session):
     if arguments.json:
         objects = [{"name": name, "provenance": report} for name, report in reports.items()]
         document = {"format": FORMAT, "version": VERSION, "file": str(arguments.input), "objects": objects}
-        session.console.print(json.dumps(document, indent=2))
+        session.say(json.dumps(document, indent=2))
     else:
-        session.console.print("\n\n".join(summaries))
+        session.say("\n\n".join(summaries))
 
 
 def _summary(name, report):

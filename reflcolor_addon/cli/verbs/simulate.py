@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from ...batch.outputs import check_outputs, require_blender
+from ...batch.blender_tasks import require_blender
+from ...batch.paths import check_outputs
 from ...errors import ReflcolorError, SettingsError, UsageError
+from ...simulation.request import SimulationRequest
 from ...simulation.virtual_scanner import ScannerModel
-from ..blender_door import SimulationRequest
 
 NAME = "simulate"
 HELP = "scan a scene with a virtual scanner (in Blender)"
@@ -119,7 +120,7 @@ def run(arguments, session):
     check_outputs([("-o", arguments.output)], [arguments.input])
     session.blender.simulate(request, session.progress, session.written)
     for path in session.written:
-        session.console.print(f"wrote {path}")
+        session.say(f"wrote {path}")
 
 
 def _scanner(arguments):

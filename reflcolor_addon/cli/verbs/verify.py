@@ -34,10 +34,10 @@ def run(arguments, session):
             {"file": str(path), "outputs": [{"path": str(o.path), "state": o.state, "note": o.note} for o in outputs]}
             for path, outputs in found
         ]
-        session.console.print(json.dumps({"format": FORMAT, "version": VERSION, "reports": reports}, indent=2))
+        session.say(json.dumps({"format": FORMAT, "version": VERSION, "reports": reports}, indent=2))
     else:
         for output in outputs:
-            session.console.print(f"{output.state:<8} {output.path}{f': {output.note}' if output.note else ''}")
+            session.say(f"{output.state:<8} {output.path}{f': {output.note}' if output.note else ''}")
     wrong = sum(output.state != WHOLE for output in outputs)
     if wrong:
         raise ReflcolorError(

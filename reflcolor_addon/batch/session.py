@@ -1,25 +1,33 @@
-"""What every verb is given besides its arguments."""
+"""One run of the pipeline or of the command line: whom it tells, when it ends, and what it leaves."""
 
+import time
 from collections.abc import Callable
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..errors import Cancelled
 from ..files.readers import read_scans
-from .blender_door import BlenderDoor
-from .console import Console
+from .blender_tasks import BlenderTasks
+
+
+def _ignore(*_):
+    pass
 
 
 @dataclass(kw_only=True)
 class Session:
-    """One run of the command line.
+    """One run: whom it tells, when it ends, and what it leaves.
 
     Parameters
     ----------
-    console : Console
+    say : callable
+        Called with each line of the result.
+    show : callable
+        Called as ``show(fraction, text)`` to show progress.
     cancelled : callable
         Whether the work should end.
-    blender : BlenderDoor or None
+    blender : BlenderTasks or None
         What only Blender can do; None without Blender.
     written : list of Path
         The results that are there, whole; for the message when a later one fails.
@@ -27,9 +35,10 @@ class Session:
         What is to be said when all went well; a failure is the only line of its run.
     """
 
-    console: Console
-    cancelled: Callable[[], bool]
-    blender: BlenderDoor | None = None
+    say: Callable[[str], None] = _ignore
+    show: Callable[[float, str], None] = _ignore
+    cancelled: Callable[[], bool] = bool
+    blender: BlenderTasks | None = None
     written: list[Path] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 
@@ -39,7 +48,7 @@ class Session:
         return None if self.blender is None else self.blender.version
 
     def progress(self, fraction, text):
-        """Show progress; for work that can be told to end by nothing else, this is where it ends.
+        """Show progress; work that can be ended in no other way ends here.
 
         Raises
         ------
@@ -48,14 +57,16 @@ class Session:
         """
         if self.cancelled():
             raise Cancelled
-        self.console.progress(fraction, text)
-
-    def part(self, number, count, name):
-        """Return a `progress` for one of several equal parts, counted from 0, that says which one it is."""
-        if count == 1:
-            return self.progress
-        return lambda fraction, text: self.progress((number + fraction) / count, f"{name}: {text}")
+        self.show(fraction, text)
 
     def read_scans(self, path):
-        """Read all scans of a file, with progress; print nothing else."""
+        """Read all scans of a file, with progress."""
         return read_scans(path, progress=self.progress, cancelled=self.cancelled)
+
+
+@contextmanager
+def timed(times, name):
+    """Add the seconds that the block takes to ``times[name]``."""
+    start = time.perf_counter()
+    yield
+    times[name] = round(times.get(name, 0) + time.perf_counter() - start, 3)

@@ -1,0 +1,171 @@
+"""Looks at a plan before the work begins; what can be wrong with it is found out here, not at its end."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..errors import ReflcolorError, SeedsError, UsageError
+from ..files.images import read_image
+from ..messages import Message
+from ..seeds.seeds import Seeds
+from .blender_tasks import require_blender
+from .paths import output_faults, photo_files, scan_files
+from .plan import PLACEHOLDER
+
+ALL = "all"
+
+
+def _raise(fault):
+    raise fault
+
+
+@dataclass(frozen=True)
+class Given:
+    """What was loaded while a plan was checked: seeds that are the same for every scan.
+
+    Parameters
+    ----------
+    seeds, hand : Seeds or None
+        None where there are none, or each scan has its own.
+    warnings : list of str
+    """
+
+    seeds: Seeds | None = None
+    hand: Seeds | None = None
+    warnings: list[str] = field(default_factory=list)
+
+
+def check_plan(plan, blender=None, *, refuse=_raise):
+    """Look at everything that can be looked at before a scan is read.
+
+    Parameters
+    ----------
+    plan : Plan
+    blender : BlenderTasks or None
+    refuse : callable
+        Given an error for each thing that is wrong, in turn. By default the first is raised; whoever wants to name all
+        of them keeps them, and does not run the plan.
+
+    Returns
+    -------
+    Given
+    """
+    if plan.seeds is None and not plan.photos:
+        refuse(UsageError("--seeds or --photo: give seeds, or photos to find them in"))
+    _check_choice(plan, refuse)
+    for output in plan.outputs:
+        if output.is_scene:
+            _attempt(refuse, require_blender, blender, f"{output.option} {output.path}")
+    check_placeholder(plan, len(plan.scans), refuse)
+    warnings, seeds, hand = [], None, None
+    if plan.seeds is not None and PLACEHOLDER not in str(plan.seeds):
+        seeds = _attempt(refuse, load_seeds, plan.seeds, plan.photos, warnings)
+        if seeds is not None:
+            _attempt(refuse, check_photos, plan.photos, [seeds], warnings)
+    if plan.hand is not None and PLACEHOLDER not in str(plan.hand):
+        hand = _attempt(refuse, Seeds.load, plan.hand, plan.photos)
+    known = [(output.option, output.path) for output in plan.outputs if PLACEHOLDER not in str(output.path.parent)]
+    read = inputs_of(plan, plan.scans, plan.seeds, seeds) + [("hand", plan.hand)] * (plan.hand is not None)
+    for fault in output_faults(known, [path for _, path in read]):
+        refuse(fault)
+    return Given(seeds, hand, warnings)
+
+
+def check_jobs(plan, jobs, *, refuse=_raise):
+    """Look at the rest, now that the scans are known; after this only memory and the disk can fail.
+
+    Parameters
+    ----------
+    plan : Plan
+    jobs : list of ScanJob
+    refuse : callable
+        As `check_plan`.
+    """
+    check_placeholder(plan, len(jobs), refuse)
+    outputs = [output.of(job.label) for output in plan.outputs for job in jobs]
+    read = [path for job in jobs for _, path in job.inputs]
+    named = dict.fromkeys((output.option, output.path) for output in outputs)
+    for fault in output_faults(list(named), read):
+        refuse(fault)
+
+
+def check_placeholder(plan, count, refuse=_raise):
+    """Refuse paths that are the same for several scans where each needs its own."""
+    for option, path in plan.paths_of_each() if count > 1 else ():
+        if PLACEHOLDER not in str(path):
+            refuse(
+                UsageError(
+                    "{option} {path}: each of several scans has its own; "
+                    "write {placeholder} where its name is to stand, as in {example}",
+                    option=option,
+                    path=path,
+                    placeholder=PLACEHOLDER,
+                    example=path.with_name(f"{PLACEHOLDER}_{path.name}"),
+                )
+            )
+
+
+def load_seeds(path, photos, warnings):
+    """Return the seeds of a file, with a warning where none was seen or picked.
+
+    Raises
+    ------
+    SeedsError
+        If it cannot be used, or holds none.
+    """
+    seeds = Seeds.load(path, photos)
+    if len(seeds) == 0:
+        raise SeedsError("{path}: holds no seeds; give at least one pixel with a color", path=path)
+    if all(reason == "appearance" for reason in seeds.reason):
+        warnings.append(Message("{path}: every color is a guess by likeness; none was seen or picked", path=path))
+    return seeds
+
+
+def check_photos(photos, given, warnings):
+    """See that every photo is an image; warn of one that no seeds name."""
+    named = {Path(name).name for seeds in given for name in seeds.photos if name}
+    for path in photos:
+        read_image(path)
+        if path.name not in named:
+            warnings.append(Message("{path}: no seed names this photo", path=path))
+
+
+def check_place(seeds, path, scan):
+    """Raise SeedsError, naming their file, where seeds do not lie on a scan."""
+    try:
+        seeds.placed_on(scan)
+    except SeedsError as error:
+        raise SeedsError(
+            "{path}: {problem}; expected seeds of the scan {scan}", path=path, problem=error.message, scan=scan.name
+        ) from error
+
+
+def inputs_of(plan, scan_paths, seeds_path=None, seeds=None):
+    """Return (role, path) of every file that colors come from; ``seeds`` is None where they are not known yet."""
+    inputs = [("scan", file) for path in scan_paths for file in scan_files(path)]
+    if seeds_path is None or seeds is None:
+        return inputs + [("photo", path) for path in dict.fromkeys(plan.photos)]
+    photos = photo_files(seeds, seeds_path, plan.photos)
+    return [*inputs, ("seeds", seeds_path), *(("photo", path) for path in photos)]
+
+
+def _check_choice(plan, refuse):
+    resolved = [path.resolve() for path in plan.scans]
+    for place, path in enumerate(plan.scans):
+        if resolved[place] in resolved[:place]:
+            refuse(UsageError("{path}: is given twice; give every file once", path=path))
+    if len(plan.scans) > 1 and plan.wanted not in (None, ALL):
+        refuse(
+            UsageError(
+                "--scan {wanted}: chooses a scan of one file, but {count} are given; leave it out to take every scan",
+                wanted=plan.wanted,
+                count=len(plan.scans),
+            )
+        )
+
+
+def _attempt(refuse, act, *arguments):
+    try:
+        return act(*arguments)
+    except (ReflcolorError, UsageError) as error:
+        refuse(error)
+        return None

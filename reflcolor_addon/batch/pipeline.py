@@ -1,0 +1,110 @@
+"""The one way from files to files: plan, check, session, write.
+
+The command line and batches run a whole `Plan`. Blender's operators make jobs from what is in the scene and take the
+same steps; they read and write the scene instead of files.
+"""
+
+from ..color.colorizer import colorize
+from ..matching import match_site
+from ..messages import Message
+from ..progress import part
+from .check import check_plan
+from .read import read_jobs
+from .session import timed
+from .write import writing
+
+
+def run_plan(plan, session):
+    """Do all that a plan asks for.
+
+    Parameters
+    ----------
+    plan : Plan
+    session : Session
+        Its lists tell afterwards, and after a failure, what was written and what is to be said.
+
+    Raises
+    ------
+    UsageError
+        If the plan cannot mean anything.
+    ReflcolorError
+        If an input cannot be used, or an output cannot be written.
+    Cancelled
+        If ``session.cancelled()`` returned True.
+    """
+    times = {}
+    with timed(times, "seeds"):
+        given = check_plan(plan, session.blender)
+    session.warnings += given.warnings
+    jobs = read_jobs(plan, given, session, times)
+    for job in jobs:
+        session.warnings += job.scan.warnings
+    if plan.seeds is None:
+        # Looking for a file of seeds is no part of it.
+        del times["seeds"]
+        with timed(times, "match"):
+            find_seeds(jobs, plan.photos, plan.settings, progress=session.progress, cancelled=session.cancelled)
+        _tell_matching(jobs, session)
+    count = len(jobs)
+    with writing(plan, jobs, session) as write:
+        for number in range(count):
+            job = jobs.pop(0)
+            job.times |= times
+            if plan.needs_colors:
+                with timed(job.times, "colorize"):
+                    progress = part(session.progress, number, count, job.name)
+                    colorize_job(job, plan.settings, progress=progress, cancelled=session.cancelled)
+                session.warnings += [about(job, warning, count > 1) for warning in job.colorization.warnings]
+            write(job)
+
+
+def _tell_matching(jobs, session):
+    several = len(jobs) > 1
+    for job in jobs:
+        session.warnings += [about(job, warning, several) for warning in job.matching.warnings]
+        for photo in job.matching.photos:
+            session.say(about(job, Message("{photo}: {note}", photo=photo.name, note=photo.note), several))
+
+
+def find_seeds(jobs, photos, settings, *, progress=None, cancelled=None):
+    """Find the seeds of all jobs in the same photos; each job keeps its `Matching`.
+
+    Parameters
+    ----------
+    jobs : list of ScanJob
+    photos : sequence
+        As `match_site` takes them.
+    settings : Settings
+    progress, cancelled : callable, optional
+    """
+    matchings = match_site(
+        [job.opened() for job in jobs],
+        photos,
+        settings,
+        hand=[job.hand for job in jobs],
+        kept=[job.kept for job in jobs],
+        progress=progress,
+        cancelled=cancelled,
+    )
+    for job, matching in zip(jobs, matchings, strict=True):
+        job.matching, job.seeds = matching, matching.seeds
+
+
+def colorize_job(job, settings, *, progress=None, cancelled=None):
+    """Colorize the scan of a job, unless it is colorized already."""
+    if job.colorization is None:
+        job.colorization = colorize(job.opened(), job.seeds, settings, progress=progress, cancelled=cancelled)
+
+
+def colorize_jobs(jobs, settings, *, progress=None, cancelled=None):
+    """Colorize one job after the other, each with an equal share of the progress; no scan is kept."""
+    for number, job in enumerate(jobs):
+        colorize_job(job, settings, progress=part(progress, number, len(jobs), job.name), cancelled=cancelled)
+        job.scan = None
+
+
+def about(job, line, several):
+    """Return a line that names its scan where there are several."""
+    if not several or str(line).startswith(f"{job.name}: "):
+        return line
+    return Message("{scan}: {line}", scan=job.name, line=line)

@@ -1,0 +1,111 @@
+"""What a run is to do: from which files, with which settings, to which files."""
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from ..errors import UsageError
+from ..settings import Settings
+
+PLACEHOLDER = "{scan}"
+"""Stands for a scan's label in the path of what each of several scans has of its own."""
+IMAGE, SCENE, RENDER, REPORT, SEEDS, MATCHES = "image", "scene", "render", "report", "seeds", "matches"
+RESULT_SUFFIXES = {".png": IMAGE, ".blend": SCENE, ".glb": SCENE, ".ply": SCENE}
+"""What a colorized scan is written as, by the suffix of its file."""
+
+
+@dataclass(frozen=True)
+class Output:
+    """A file to write.
+
+    Parameters
+    ----------
+    option : str
+        The option that asks for it, for messages.
+    path : Path
+        The placeholder stands for a scan's label.
+    kind : str
+        One of this module's kinds.
+    """
+
+    option: str
+    path: Path
+    kind: str
+
+    @property
+    def is_scene(self):
+        """Whether it shows a scene, in which there is room for several scans."""
+        return self.kind in (SCENE, RENDER)
+
+    @property
+    def is_of_each(self):
+        """Whether each of several scans has its own."""
+        return not self.is_scene or PLACEHOLDER in str(self.path)
+
+    def of(self, label):
+        """Return the same for the scan with that label."""
+        return replace(self, path=filled(self.path, label))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """One run of the pipeline, before anything was looked at; it can be pickled.
+
+    Parameters
+    ----------
+    scans : tuple of Path
+        Files of scans; several are of one site and are worked on together.
+    outputs : tuple of Output
+    settings : Settings
+    wanted : str, optional
+        Which scan of a file with several: its name, its index counted from 1, or "all".
+    seeds : Path, optional
+        A file of seeds; without one they are found in the photos.
+    hand : Path, optional
+        A file of seeds picked by hand, to find the others with.
+    photos : tuple of Path
+        Photos that the seeds name, or that seeds are found in.
+    """
+
+    scans: tuple[Path, ...]
+    outputs: tuple[Output, ...]
+    settings: Settings = field(default_factory=Settings)
+    wanted: str | None = None
+    seeds: Path | None = None
+    hand: Path | None = None
+    photos: tuple[Path, ...] = ()
+
+    @property
+    def needs_colors(self):
+        """Whether an output needs the scans to be colorized."""
+        return any(output.kind not in (SEEDS, MATCHES) for output in self.outputs)
+
+    def paths_of_each(self):
+        """Return (option, path) of all files that each of several scans must have of its own."""
+        given = [("--seeds", self.seeds), ("--hand", self.hand)]
+        return [(output.option, output.path) for output in self.outputs if not output.is_scene] + [
+            (option, path) for option, path in given if path is not None
+        ]
+
+
+def result_output(path, option="-o"):
+    """Return the Output for a colorized scan.
+
+    Raises
+    ------
+    UsageError
+        If the suffix does not tell what to write.
+    """
+    kind = RESULT_SUFFIXES.get(path.suffix.lower())
+    if kind is None:
+        raise UsageError(
+            "{option} {path}: the suffix tells what to write; expected one of {known}",
+            option=option,
+            path=path,
+            known=", ".join(RESULT_SUFFIXES),
+        )
+    return Output(option, path, kind)
+
+
+def filled(path, label):
+    """Return a path with a scan's label instead of the placeholder."""
+    return Path(str(path).replace(PLACEHOLDER, label))

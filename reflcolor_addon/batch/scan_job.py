@@ -1,0 +1,66 @@
+"""One scan on its way through the pipeline."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..color.colorization import Colorization
+from ..matching import Matching
+from ..scan.scan import Scan
+from ..seeds.seeds import Seeds
+from .plan import Output
+
+
+@dataclass(eq=False, kw_only=True)
+class ScanJob:
+    """A scan with all that belongs to it; every step of the pipeline adds its part.
+
+    Parameters
+    ----------
+    name : str
+        No other scan of the run has it.
+    scan : Scan or callable
+        Or a function without arguments that returns it, for a scan that is made when its turn comes. None when nothing
+        needs it any more.
+    label : str
+        The name made safe for a file name; no other scan's is the same, not even in capitals.
+    path : Path, optional
+        The scan's file.
+    index : int, optional
+        Its place in the file, from 1.
+    seeds : Seeds, optional
+        What colors it, as given or found.
+    hand, kept : Seeds, optional
+        Seeds picked by hand, and seeds that stay, where others are found; see `match_photos`.
+    inputs : list of (str, Path)
+        What for, and the file.
+    outputs : list of Output
+        Those of this scan alone.
+    matching : Matching, optional
+        How its seeds were found.
+    colorization : Colorization, optional
+    report : dict, optional
+    times : dict
+        Seconds that each step took.
+    """
+
+    name: str
+    scan: Scan | Callable[[], Scan] | None
+    label: str = ""
+    path: Path | None = None
+    index: int | None = None
+    seeds: Seeds | None = None
+    hand: Seeds | None = None
+    kept: Seeds | None = None
+    inputs: list[tuple[str, Path]] = field(default_factory=list)
+    outputs: list[Output] = field(default_factory=list)
+    matching: Matching | None = None
+    colorization: Colorization | None = None
+    report: dict | None = None
+    times: dict[str, float] = field(default_factory=dict)
+
+    def opened(self):
+        """Return the scan, which is there from now on."""
+        if callable(self.scan):
+            self.scan = self.scan()
+        return self.scan

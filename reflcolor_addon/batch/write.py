@@ -1,0 +1,150 @@
+"""Writes what a run has made: each scan's own files, then scenes that hold all scans, reports last."""
+
+import json
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..files.atomic import written_atomically
+from ..files.images import write_png
+from ..matching import draw_matches
+from ..messages import Message
+from ..report.report import build_report, input_entry, output_entry, photo_entry, scan_entry, stamped
+from .paths import tracked
+from .plan import IMAGE, MATCHES, RENDER, REPORT, SCENE, SEEDS
+from .session import timed
+
+
+@contextmanager
+def writing(plan, jobs, session):
+    """Within the block, ``write(job)`` writes what belongs to one job; at its end the rest is written and told.
+
+    Parameters
+    ----------
+    plan : Plan
+    jobs : list of ScanJob
+        All that there will be. One that was written holds no scan and no colors any more, unless a scene is still to
+        be made of all of them.
+    session : Session
+        Its list ``written`` tells what is there, whether the block ends well or not.
+    """
+    writer = _Writer(plan, jobs, session)
+    with tracked(writer.paths, session.written):
+        yield writer.write
+        writer.finish()
+    for line in writer.lines:
+        session.say(line)
+
+
+class _Writer:
+    def __init__(self, plan, jobs, session):
+        self._plan, self._session = plan, session
+        self._shared = [output for output in plan.outputs if len(jobs) > 1 and not output.is_of_each]
+        self._reported = any(output.is_scene or output.kind == REPORT for output in plan.outputs)
+        self._hashed, self._rest = {}, []
+        places = [(output, job) for output in plan.outputs for job in jobs]
+        own = [(output.of(job.label).path, output.kind, job) for output, job in places]
+        self.paths = list(dict.fromkeys(path for path, *_ in own))
+        self._told = {path: (kind, job) for path, kind, job in own}
+
+    @property
+    def lines(self):
+        """What is there, one line for each file."""
+        for path, (kind, job) in self._told.items():
+            if kind == SEEDS:
+                yield Message("wrote {path}: {count} seeds", path=path, count=len(job.seeds))
+            else:
+                yield Message("wrote {path}", path=path)
+
+    def write(self, job):
+        """Write the scenes that hold one job alone, and what tells of its seeds."""
+        with timed(job.times, "write"):
+            for output in job.outputs:
+                if output.kind in _SEED_WRITERS:
+                    self._tell(output)
+                    _SEED_WRITERS[output.kind](job, self._plan, output.path)
+            if self._reported:
+                job.report = self._report(job)
+            self._write_scenes([job], job.outputs)
+        # Nothing that costs more than this is kept until all scans are colorized.
+        self._rest.append((job, None if job.colorization is None else job.colorization.rgb))
+        if not self._shared:
+            job.scan = job.colorization = None
+
+    def finish(self):
+        """Write the scenes that hold all scans, images, and last the reports: those say how long the rest took."""
+        with timed(shared := {}, "write"):
+            self._write_scenes(self._let_go(), self._shared)
+        for job, rgb in self._rest:
+            with timed(job.times, "write"):
+                for output in job.outputs:
+                    if output.kind == IMAGE:
+                        self._tell(output)
+                        write_png(output.path, rgb)
+            job.times["write"] = round(job.times["write"] + shared["write"], 3)
+        # Each names the hashes of its outputs, so it comes after all of them.
+        for job, _ in self._rest:
+            for output in job.outputs:
+                if output.kind == REPORT:
+                    self._write_report(job, output)
+
+    def _write_report(self, job, output):
+        self._tell(output)
+        with timed(job.times, "write"):
+            outputs = [self._output_entry(entry, output.path) for entry in job.report["outputs"]]
+        _write_json(output.path, job.report | {"outputs": outputs, "times_s": job.times})
+
+    def _output_entry(self, entry, report_path):
+        """What a report says of one of its outputs; of itself only where it is."""
+        if entry["option"] == "--report":
+            return entry
+        return output_entry(entry["option"], Path(entry["path"]), report_path, self._session.cancelled)
+
+    def _tell(self, output):
+        self._session.progress(1.0, Message("Writing {name}", name=output.path.name))
+
+    def _let_go(self):
+        for job, _ in self._rest:
+            yield job
+            job.scan = job.colorization = None
+
+    def _report(self, job):
+        for role, path in job.inputs:
+            if (role, path) not in self._hashed:
+                self._hashed[role, path] = input_entry(role, path, self._session.cancelled)
+        outputs = [output.of(job.label) for output in self._plan.outputs]
+        report = build_report(
+            scan_entry(job.scan, job.index),
+            job.colorization,
+            self._plan.settings,
+            given_seeds=job.seeds,
+            photos=[photo_entry(photo) for photo in job.matching.photos] if job.matching else [],
+            inputs=[self._hashed[entry] for entry in job.inputs],
+            outputs=[(output.option, output.path) for output in outputs],
+            noticed=job.scan.warnings,
+            blender=self._session.blender_version,
+        )
+        return stamped(report)
+
+    def _write_scenes(self, jobs, outputs):
+        paths = [output.path for output in outputs if output.kind == SCENE]
+        render = next((output.path for output in outputs if output.kind == RENDER), None)
+        if paths or render is not None:
+            self._session.blender.write_scene(jobs, paths, render, self._session.progress)
+
+
+def _write_seeds(job, _plan, path):
+    job.seeds.save(path)
+
+
+def _write_matches(job, plan, path):
+    write_png(path, draw_matches(job.scan, plan.photos, job.seeds))
+
+
+_SEED_WRITERS = {SEEDS: _write_seeds, MATCHES: _write_matches}
+
+
+def _write_json(path, document):
+    text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    with written_atomically(path) as temporary:
+        # A file name that is no text comes out as JSON's own escapes.
+        temporary.write_bytes(text.encode("utf-8", "backslashreplace"))
