@@ -38,7 +38,6 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
     bl_label = "Import Laser Scan"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
     job_name = "Import Laser Scan"
-    _from_browser = False
 
     filter_glob: StringProperty(default=_PATTERN, options={"HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
@@ -117,14 +116,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         # Given by a drop or a script; what was picked the last time does not count as given.
         if self.properties.is_property_set("filepath"):
             return self.start(context)
-        self._from_browser = True
-        return ImportHelper.invoke(self, context, event)
-
-    def execute(self, context):
-        # Back from the file browser there is a window to show progress in. A script wants the result at once, and so
-        # does the redo panel: Blender crashes where what it repeats goes on.
-        from_browser, self._from_browser = self._from_browser, False
-        return self.start(context) if from_browser else self.run_blocking(context)
+        return self.browse(ImportHelper, context, event)
 
     def prepare(self, context):
         paths = [Path(self.directory, file.name) for file in self.files if file.name] or [Path(self.filepath)]

@@ -8,22 +8,24 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ExportHelper
 
 from ..reflcolor_addon.simulation.virtual_scanner import ScannerModel
-from .scene.reports import reported
 from .scene.simulation import Simulation, leveled_pose, photo_cameras, simulation_steps
-from .scene.texts import core_line, label, told
+from .scene.texts import told
+from .window.jobs import JobOperator, StepJob
 
 _DEFAULT = ScannerModel()
 
 
-class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
+class REFLCOLOR_OT_simulate(JobOperator, bpy.types.Operator, ExportHelper):
     """Scan the scene with a virtual laser scanner and take photos of it, for teaching, planning and tests"""
 
     bl_idname = "reflcolor.simulate"
     bl_label = "Simulate Laser Scan"
     bl_options = {"REGISTER", "PRESET"}
+    job_name = "Simulate Laser Scan"
+    job_type = StepJob
+    blocks_events = True
 
     filename_ext = ".e57"
-    _from_browser = False
     # The suffix that a person types chooses the format.
     check_extension = None
     filter_glob: StringProperty(default="*.ptx;*.e57;*.scan.json", options={"HIDDEN"})
@@ -122,59 +124,13 @@ class REFLCOLOR_OT_simulate(bpy.types.Operator, ExportHelper):
     )
 
     def invoke(self, context, event):
-        self._from_browser = True
-        return ExportHelper.invoke(self, context, event)
+        return self.browse(ExportHelper, context, event)
 
-    @reported
-    def execute(self, context):
-        # As in Import: what Blender repeats must not go on.
-        from_browser, self._from_browser = self._from_browser, False
-        steps = simulation_steps(context.scene, self._simulation(context))
-        if from_browser and context.window is not None:
-            return self._start(context, steps)
-        for _ in steps:
-            pass
+    def prepare(self, context):
+        return simulation_steps(context.scene, self._simulation(context))
+
+    def finish(self, _context, _result):
         self.report({"INFO"}, told("Simulated {path}", path=self.filepath))
-        return {"FINISHED"}
-
-    def modal(self, context, event):
-        # Nothing else may happen meanwhile: the renders hold on to the scene.
-        if event.type == "ESC" and event.value == "PRESS":
-            self._end(context)
-            self.report({"INFO"}, "Simulation cancelled")
-            return {"CANCELLED"}
-        return self._step(context) if event.type == "TIMER" else {"RUNNING_MODAL"}
-
-    def cancel(self, context):
-        """Blender ends the operator, because its window or file goes away."""
-        self._end(context)
-
-    def _start(self, context, steps):
-        self._steps = steps
-        self._timer = context.window_manager.event_timer_add(0.05, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    @reported
-    def _step(self, context):
-        try:
-            fraction, text = next(self._steps)
-        except StopIteration:
-            self._end(context)
-            self.report({"INFO"}, told("Simulated {path}", path=self.filepath))
-            return {"FINISHED"}
-        except Exception:
-            self._end(context)
-            raise
-        context.workspace.status_text_set(
-            f"{label(self.bl_label)}:  {fraction:.0%}  {core_line(text)}   |   {label('ESC: Cancel')}"
-        )
-        return {"RUNNING_MODAL"}
-
-    def _end(self, context):
-        self._steps.close()
-        context.window_manager.event_timer_remove(self._timer)
-        context.workspace.status_text_set(None)
 
     def _simulation(self, context):
         scene = context.scene

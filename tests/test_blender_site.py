@@ -105,7 +105,7 @@ def cancelled(installed_blender, monkeypatch):
 @pytest.fixture
 def matched(installed_blender, monkeypatch):
     """A dictionary of what the search for seeds is given; it finds one seed on each scan, more on the first."""
-    module = importlib.import_module(f"{EXTENSION}.operators.match_photos")
+    pipeline = importlib.import_module(f"{EXTENSION}.reflcolor_addon.batch.pipeline")
     match = importlib.import_module(f"{EXTENSION}.reflcolor_addon.matching.match")
     given = {}
 
@@ -129,7 +129,7 @@ def matched(installed_blender, monkeypatch):
             found.append(match.Matching(seeds, (report,), warnings))
         return found
 
-    monkeypatch.setattr(module, "match_site", match_site)
+    monkeypatch.setattr(pipeline, "match_site", match_site)
     return given
 
 

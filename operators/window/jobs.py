@@ -1,6 +1,7 @@
-"""Long work of operators: blocking in scripts and in background, in a thread with progress and ESC in the window."""
+"""Long work of operators: blocking in scripts and in background, with progress and ESC in the window."""
 
 import threading
+import time
 
 import bpy
 
@@ -8,6 +9,8 @@ from ...reflcolor_addon.errors import Cancelled
 from ..scene.reports import reported
 from ..scene.texts import core_line, label, told
 
+# Between two looks at a job.
+_INTERVAL_S = 0.1
 _running = []
 
 
@@ -24,26 +27,52 @@ def stop_all():
 
 
 class Job:
-    """One piece of work in a thread of its own; it touches no bpy.
+    """One piece of long work in the window.
 
     Parameters
     ----------
     name : str
         What it does, for the status bar.
+
+    Attributes
+    ----------
+    fraction : float
+    text : str
+        How far it is.
+    result : object
+    error : BaseException or None
+        What came of it, when it is no longer ``alive``.
+    """
+
+    def __init__(self, name):
+        self.name = name
+        self.fraction, self.text = 0.0, ""
+        self.result = self.error = None
+
+    def advance(self):
+        """Called by the window now and then, until the job is no longer alive."""
+
+
+class ThreadJob(Job):
+    """Work in a thread of its own; it touches no bpy.
+
+    Parameters
+    ----------
     work : callable
         Called as ``work(progress, cancelled)``.
     """
 
     def __init__(self, name, work):
-        self.name = name
-        self.fraction = 0.0
-        self.text = ""
-        self.result = None
-        self.error = None
+        super().__init__(name)
         self._work = work
         self._cancel = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"reflcolor {name}", daemon=True)
         self._thread.start()
+
+    @staticmethod
+    def complete(work):
+        """Do all of the work now and return its result."""
+        return work(None, None)
 
     def _run(self):
         try:
@@ -61,7 +90,7 @@ class Job:
 
     @property
     def stopping(self):
-        """Whether ESC was pressed."""
+        """Whether it was asked to end."""
         return self._cancel.is_set()
 
     def cancel(self, *, wait=False):
@@ -71,17 +100,71 @@ class Job:
             self._thread.join()
 
 
+class StepJob(Job):
+    """Work that needs Blender itself, done step by step between the window's events.
+
+    Parameters
+    ----------
+    steps : generator
+        Yields (fraction, text) before each step; what it returns is the result.
+    """
+
+    def __init__(self, name, steps):
+        super().__init__(name)
+        self._steps = steps
+        self.alive, self.stopping = True, False
+
+    @staticmethod
+    def complete(steps):
+        """Do all of the work now and return its result."""
+        while True:
+            try:
+                next(steps)
+            except StopIteration as end:
+                return end.value
+
+    def advance(self):
+        """Do one step, and more as long as they are short."""
+        end = time.monotonic() + _INTERVAL_S
+        try:
+            while True:
+                self.fraction, self.text = next(self._steps)
+                if time.monotonic() >= end:
+                    return
+        except StopIteration as stop:
+            self.alive, self.result = False, stop.value
+        except BaseException as error:
+            self.alive, self.error = False, error
+
+    def cancel(self, *, wait=False):
+        """End the work."""
+        self._steps.close()
+        self.alive, self.stopping = False, True
+
+
 class JobOperator:
     """An operator with long work.
 
-    A subclass gives ``job_name``, ``prepare(context)``, which reads what it needs from Blender and returns
-    ``work(progress, cancelled)``, and ``finish(context, result)``, which writes the result in one step.
+    A subclass gives ``job_name``, ``prepare(context)``, which reads what it needs from Blender and returns what its
+    ``job_type`` does, and ``finish(context, result)``, which writes the result in one step.
     """
 
+    job_type = ThreadJob
+    # Whether other events must wait, because the work holds on to the scene.
+    blocks_events = False
     _job = None
+    _from_browser = False
 
     def execute(self, context):
-        return self.run_blocking(context)
+        # Back from the file browser there is a window to show progress in. A script wants the result at once, and so
+        # does the redo panel: Blender crashes where what it repeats goes on.
+        from_browser, self._from_browser = self._from_browser, False
+        return self.start(context) if from_browser else self.run_blocking(context)
+
+    def browse(self, helper, context, event):
+        """Open the file browser, by Blender's ImportHelper or ExportHelper; the work goes on in the window after it."""
+        self._from_browser = True
+        return helper.invoke(self, context, event)
 
     def invoke(self, context, _event):
         return self.start(context)
@@ -89,7 +172,7 @@ class JobOperator:
     @reported
     def run_blocking(self, context):
         """Do all of it before returning, as scripts and background mode expect."""
-        self.finish(context, self.prepare(context)(None, None))
+        self.finish(context, self.job_type.complete(self.prepare(context)))
         return {"FINISHED"}
 
     @reported
@@ -100,9 +183,9 @@ class JobOperator:
         if running() is not None:
             self.report({"WARNING"}, told("{name} is still running; press ESC to cancel it", name=told(running().name)))
             return {"CANCELLED"}
-        self._job = Job(self.job_name, self.prepare(context))
+        self._job = self.job_type(self.job_name, self.prepare(context))
         _running.append(self._job)
-        self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
+        self._timer = context.window_manager.event_timer_add(_INTERVAL_S, window=context.window)
         context.window_manager.modal_handler_add(self)
         self._show(context)
         return {"RUNNING_MODAL"}
@@ -110,13 +193,13 @@ class JobOperator:
     def modal(self, context, event):
         if event.type == "ESC" and event.value == "PRESS" and self._job.alive:
             self._job.cancel()
-            self._show(context)
-            return {"RUNNING_MODAL"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
+        elif event.type != "TIMER":
+            return {"RUNNING_MODAL"} if self.blocks_events else {"PASS_THROUGH"}
+        if self._job.alive:
+            self._job.advance()
         if self._job.alive:
             self._show(context)
-            return {"PASS_THROUGH"}
+            return {"RUNNING_MODAL"} if self.blocks_events or event.type == "ESC" else {"PASS_THROUGH"}
         self._end(context)
         return self._outcome(context)
 

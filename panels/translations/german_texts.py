@@ -58,6 +58,7 @@ _JOBS = {
     "Evaluate": "Bewerten",
     "Import Laser Scan": "Laserscan importieren",
     "Match Photos": "Fotos zuordnen",
+    "Simulate Laser Scan": "Laserscan simulieren",
     "Move Seeds or Stroke": "Saatpunkte ziehen oder Strich",
 }
 
@@ -96,7 +97,6 @@ _REPORTS = {
     "No return there; placed at row {row}, column {col}": "Dort keine Messung; gesetzt in Zeile {row}, Spalte {col}",
     "Saved {count} seeds to {path}": "{count} Saatpunkte gespeichert in {path}",
     "Simulated {path}": "{path} simuliert",
-    "Simulation cancelled": "Simulation abgebrochen",
     "That seed was moved or removed": "Dieser Saatpunkt wurde versetzt oder entfernt",
     "The reflectance image was deleted; undo that, or import the scan again": (
         "Das Reflektanzbild wurde gelöscht; das rückgängig machen oder den Scan noch einmal importieren"
