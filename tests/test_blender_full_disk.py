@@ -8,6 +8,7 @@ import pytest
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds, Settings, colorize
+from reflcolor_addon.batch.scan_job import ScanJob
 from reflcolor_addon.report.report import build_report, scan_entry
 
 SCENE = "bl_ext.user_default.reflcolor.operators.scene"
@@ -29,7 +30,8 @@ def no_room_beyond(size):
 def result():
     scan, seeds = random_scan(5, (30, 40)), Seeds([0, 7], [0, 11], np.array([[220, 60, 30], [30, 90, 200]]))
     colorization = colorize(scan, seeds)
-    return scan, colorization, build_report(scan_entry(scan, 1), colorization, Settings(), given_seeds=seeds, inputs=[])
+    report = build_report(scan_entry(scan, 1), colorization, Settings(), given_seeds=seeds, inputs=[])
+    return ScanJob(name=scan.name, scan=scan, seeds=seeds, colorization=colorization, report=report)
 
 
 # Blender's own exporters leave files open when writing fails.

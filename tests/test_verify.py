@@ -29,9 +29,9 @@ def test_a_folder_of_results_can_be_moved(run_cli, results, monkeypatch):
 
 
 def test_a_run_that_died_between_two_outputs_is_told(run_cli, results, monkeypatch):
-    from reflcolor_addon.batch import results as batch_results
+    from reflcolor_addon.batch import write as batch_write
 
-    write = batch_results.write_png
+    write = batch_write.write_png
 
     def dies(path, rgb):
         if path.name == "second.png":
@@ -39,7 +39,7 @@ def test_a_run_that_died_between_two_outputs_is_told(run_cli, results, monkeypat
         write(path, rgb)
 
     save_seeds(results, {"row": 0, "col": 0, "rgb": [9, 200, 9]})
-    monkeypatch.setattr(batch_results, "write_png", dies)
+    monkeypatch.setattr(batch_write, "write_png", dies)
     assert run_cli(*RUN)[0] == 130
     status, out, err = run_cli("verify", "r.json")
     changed = "changed  out.png: it is whole, but was written by another run or changed since\n"
