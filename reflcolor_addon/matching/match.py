@@ -145,7 +145,8 @@ def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=N
     hand = [None if own is None else _picked(own) for own in _placed(hand, scans)]
     kept = _placed(kept, scans)
     progress(0.0, "Opening the photos")
-    opened = opened_photos(photos)
+    of_files = []
+    opened = opened_photos(photos, of_files)
     if not opened:
         raise SeedsError("no photo: give at least one")
 
@@ -164,13 +165,15 @@ def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=N
     progress(1.0, "Matched")
     gray = tuple(f"{photo.name}: is black and white, it gives no colors" for photo in opened if _is_gray(photo.rgb))
     return [
-        Matching(joined(picked, stays, matching.seeds), matching.photos, gray + matching.warnings)
+        Matching(joined(picked, stays, matching.seeds), matching.photos, (*of_files, *gray, *matching.warnings))
         for matching, picked, stays in zip(matchings, hand, kept, strict=True)
     ]
 
 
-def opened_photos(photos):
+def opened_photos(photos, warnings=None):
     """Return a `PhotoImage` for each photo, a path, an array, or a name and an array.
+
+    ``warnings``, a list, gets what a person should know of a file.
 
     Raises
     ------
@@ -188,7 +191,7 @@ def opened_photos(photos):
             if rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.dtype != np.uint8:
                 raise ImageError(f"{name}: expected (H, W, 3) uint8, found {rgb.shape} {rgb.dtype}")
         else:
-            name, rgb = Path(photo).name, read_image(photo)
+            name, rgb = Path(photo).name, read_image(photo, warnings)
         if min(rgb.shape[:2]) < _LEAST_SIDE:
             raise ImageError(
                 f"{name}: has {rgb.shape[1]} x {rgb.shape[0]} pixels, expected at least {_LEAST_SIDE} on each side"
