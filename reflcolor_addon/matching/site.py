@@ -8,6 +8,7 @@ from ..seeds.seeds import Seeds
 from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .registration.location import located
 from .registration.registration import ScanViews
+from .scan_image import toned
 from .transfer.appearance import LEAST_CONFIDENCE, Appearance, described
 from .transfer.fallback import cautious_colors, mean_color
 from .transfer.several_photos import blended, gains
@@ -66,7 +67,7 @@ def verified(scans, photos, hand, settings, step):
 def _prepared(scan, settings, step):
     step(0.02, f"{scan.name}: superpixels")
     views = ScanViews(scan)
-    image = square_image(scan, views.tone("percentiles"))
+    image = square_image(scan, toned(scan, "percentiles"))
     return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), [], [], [])
 
 
@@ -163,8 +164,9 @@ def _learnt(places, seen, looks):
         return None
     descriptors = np.concatenate([look[own.segments] for _, own, look in known])
     rgb = np.concatenate([own.seeds.rgb for _, own, _ in known])
-    along = np.concatenate([own.seeds.cols + 1e6 * number for number, (_, own, _) in enumerate(known)])
-    return Appearance.learnt(descriptors, rgb, along)
+    # Scans lie apart.
+    places = [np.column_stack([own.seeds.cols, own.seeds.rows]) + 1e6 * k for k, (_, own, _) in enumerate(known)]
+    return Appearance.learnt(descriptors, rgb, np.concatenate(places))
 
 
 def _with_unseen(place, seen, look, appearance, photos, settings, step):
