@@ -37,6 +37,9 @@ class PhotoMatch:
     evidence : float
         What speaks for the best camera there is, as a share of what is needed: below 1 it is not verified, unless pairs
         picked by hand place it.
+    tested : bool
+        False where nothing can be told, neither that the photo shows the scan nor that it does not: the scan is too
+        coarse, or the photo is of one tone. The note says which.
     """
 
     name: str
@@ -45,6 +48,7 @@ class PhotoMatch:
     reason: str | None
     note: str
     evidence: float = 0.0
+    tested: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,7 +244,7 @@ def _is_gray(rgb):
 def _report(photo, location):
     model = location.registration.model if location.verified else None
     share = location.registration.evidence.share
-    return PhotoMatch(photo.name, location.verified, model, location.reason, location.note, share)
+    return PhotoMatch(photo.name, location.verified, model, location.reason, location.note, share, location.tested)
 
 
 def _as_published(scan, photos, settings, step):

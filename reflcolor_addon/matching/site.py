@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..messages import Message
 from ..seeds.seeds import Seeds
 from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .registration.location import located
@@ -79,13 +80,14 @@ def _shown(place, photo, index):
     view = seen_by(photo, location.registration.model, place.image)
     if view.usable.any():
         return view
-    place.locations[index] = replace(
-        location, verified=False, reason=None, note=f"{location.note}; so placed, it shows nothing of the scan"
-    )
-    help_ = (
-        "check the pairs, and add some far from the others" if location.by_hand else "pick four to six pairs by hand"
-    )
-    place.warnings.append(f"{place.scan.name}: {photo.name}, so placed, shows nothing of the scan; {help_}")
+    note = Message("{note}; so placed, it shows nothing of the scan", note=location.note)
+    place.locations[index] = replace(location, verified=False, reason=None, note=note)
+    warning = "{scan}: {photo}, so placed, shows nothing of the scan; pick four to six pairs by hand"
+    if location.by_hand:
+        warning = (
+            "{scan}: {photo}, so placed, shows nothing of the scan; check the pairs, and add some far from the others"
+        )
+    place.warnings.append(Message(warning, scan=place.scan.name, photo=photo.name))
     return None
 
 
@@ -197,7 +199,8 @@ def _with_unseen(place, seen, look, appearance, photos, settings, step):
         reason=("appearance",) * int(sure.sum()),
     )
     if seen is None:
-        place.warnings.append(f"{place.scan.name}: no photo shows it; all its colors are guessed from the other scans")
+        warning = "{scan}: no photo shows it; all its colors are guessed from the other scans"
+        place.warnings.append(Message(warning, scan=place.scan.name))
         return likely
     return Seeds(
         rows=np.concatenate([seen.seeds.rows, likely.rows]),
@@ -221,9 +224,8 @@ def _cut_off(place, seeded, unseen):
 
 def _cautious(place, photos, settings, step):
     """Seeds where nothing was verified: the mean color of the photos, and more only where neighbors agree."""
-    place.warnings.append(
-        f"{place.scan.name}: no photo could be verified; colors are guessed from likeness, near the photos' mean color"
-    )
+    warning = "{scan}: no photo could be verified; colors are guessed from likeness, near the photos' mean color"
+    place.warnings.append(Message(warning, scan=place.scan.name))
     text = f"{place.scan.name}: comparing superpixels"
     step(0.96, text)
     own, others = described_scan(place.scan, place.image, place.superpixels, settings), []
