@@ -28,7 +28,7 @@ from .verification import (
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
 # Pixels, tile, radius, blur and spread from guess to guess: a direction from the scanner is found nearly exactly, and
 # weak evidence shows on fine levels only; a place aside is found roughly.
-_FROM_SCANNER = ([(1.0, 32, 8, 2.0, 0.5)],)
+_FROM_SCANNER = ([(1.0, 32, 8, 2.0, 0.5)], [(0.6, TILE, 8, 2.0, 0.5)])
 _FROM_ASIDE = ([(*_COARSE, 10, 1.5, 1.2)], [(*_MIDDLE, 10, 1.0, 0.8)])
 # From this multiple of the needed evidence on, nothing better is looked for.
 _CONVINCING = 2.0
@@ -284,7 +284,8 @@ def _tried(views, photo, guesses, aside, step):
             free = model.POSE if aside else model.ROTATION
             tried.append(refined(views, photo, model, levels, free=free, rng=rng))
         tried = [pair for pair in tried if pair[0] is not None]
-        promising = sorted(tried, key=lambda pair: -pair[1].rank)[:_TRIED]
+        # Large tiles of coarse pixels seldom have but one best place: their strength is all that tells.
+        promising = sorted(tried, key=lambda pair: -pair[1].strength)[:_TRIED]
     best = Registration.nothing("search")
     for start, promise in promising[:2]:
         if promise.strength < max(_TELLING, _NEARLY * promising[0][1].strength) or best.evidence.rank >= _CONVINCING:
