@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.real_scans import NAMES, has_truth, load
-from reflcolor_addon.scan.orientation import infer_flips
+from reflcolor_addon.scan.orientation import infer_turn
 
 
 @pytest.fixture(scope="module")
@@ -15,7 +15,7 @@ def scans(data_dir):
 @pytest.mark.parametrize("name", NAMES)
 def test_a_real_scan_is_upright_and_colored_and_warns_of_nothing(scans, name):
     scan = scans[name]
-    assert infer_flips(scan.points, scan.valid) == (False, False, True)
+    assert infer_turn(scan.points, scan.valid) == (False, False, False, True)
     assert has_truth(scan).mean() > 0.4
     assert scan.warnings == ()
     assert not scan.full_turn

@@ -8,20 +8,41 @@ import numpy as np
 _CLEAR = 0.5
 """Share of agreeing over contradicting pairs of pixels that counts as an answer."""
 
+_SWAPPED = 1.5
+"""How much more the height must change along a row than along a column before the two are taken to be swapped."""
+
 _SAMPLES = 256
 """Rows and columns that are looked at; more would only repeat what these say."""
 
+_CAMERA_TURN_DEG = 45.0
+"""A depth camera looks along its Z axis: so far from it, at most, may the middle of what it saw be."""
 
-class Flips(NamedTuple):
-    """What brings a stored grid to row 0 up and columns left to right as seen from the scanner."""
+_CAMERA_EDGE_DEG = 80.0
+"""And so far from the middle any single point."""
 
+Z_UP = np.array([0.0, 0.0, 1.0])
+
+
+class Turn(NamedTuple):
+    """What brings a stored grid to row 0 up and columns left to right as seen from the scanner, in this order."""
+
+    transposed: bool
     vertical: bool
     horizontal: bool
     certain: bool
 
+    def of(self, grid):
+        """Return an (H, W, ...) array turned that way; None for None."""
+        if grid is None:
+            return None
+        return (np.swapaxes(grid, 0, 1) if self.transposed else grid)[turned(self.vertical, self.horizontal)]
 
-def infer_flips(points, valid):
-    """Read the flips that a stored grid needs from the elevation along its rows and the sense of its columns.
+
+AS_STORED = Turn(False, False, False, False)
+
+
+def infer_turn(points, valid):
+    """Read the turn that a stored grid needs from the elevation along its rows and columns and from its handedness.
 
     Parameters
     ----------
@@ -31,11 +52,12 @@ def infer_flips(points, valid):
 
     Returns
     -------
-    Flips
-        Up is where the elevation grows. Left to right is what makes (right x down) point away from the scanner; it
-        is measured by the three together, because it holds even where an azimuth means nothing, near the zenith.
-        `certain` is False where the points do not show it: rows then stay as stored, unless the grid is mirrored,
-        which is mended by turning the rows, the commoner of the two ways in which files differ.
+    Turn
+        Up is where the elevation grows; rows and columns are swapped where it grows along a row. Left to right is what
+        makes (right x down) point away from the scanner; it is measured by the three together, because it holds even
+        where an azimuth means nothing, near the zenith. `certain` is False where the points do not show it: rows then
+        stay as stored, unless the grid is mirrored, which is mended by turning the rows, the commoner of the two ways
+        in which files differ.
     """
     points, valid = _sampled(points, valid)
     points = np.where(valid[..., None], points, 0.0)
@@ -43,16 +65,78 @@ def infer_flips(points, valid):
     valid = valid & (distance > 0)
     directions = points / np.where(valid, distance, 1.0)[..., None]
 
+    transposed = _swapped(directions, valid)
+    if transposed:
+        directions, valid = directions.swapaxes(0, 1), valid.T
     upright = _upright_score(directions, valid)
     proper = _proper_score(directions, valid)
     mirrored = proper is not None and proper < 0
     if valid.shape[0] == 1:
-        return Flips(False, mirrored, proper is not None)
+        return Turn(transposed, False, mirrored, proper is not None)
     if upright is None:
-        return Flips(mirrored, False, False)
+        return Turn(transposed, mirrored, False, False)
     if proper is None:
-        return Flips(upright < 0, False, valid.shape[1] == 1)
-    return Flips(upright < 0, mirrored != (upright < 0), True)
+        return Turn(transposed, upright < 0, False, valid.shape[1] == 1)
+    return Turn(transposed, upright < 0, mirrored != (upright < 0), True)
+
+
+def up_of_camera(points, valid):
+    """Return which way is up for a camera that looks along its Z axis, or None where the grid is not such a camera's.
+
+    Depth cameras count their axes like images: X to the right, Y down, Z ahead; or, Z behind, Y up.
+
+    Parameters
+    ----------
+    points : (H, W, 3) float
+        In the stored frame, measured from the camera.
+    valid : (H, W) bool
+
+    Returns
+    -------
+    (3,) float64 or None
+    """
+    points, valid = _sampled(points, valid)
+    height, width = valid.shape
+    if min(height, width) < 3 or np.count_nonzero(valid) < 9:
+        return None
+    directions = points[valid]
+    directions = directions / np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None]
+    ahead = directions.mean(axis=0)
+    length = np.linalg.norm(ahead)
+    ahead = ahead / length if length > 0 else Z_UP
+    if abs(ahead[2]) < np.cos(np.radians(_CAMERA_TURN_DEG)):
+        return None
+    radius = np.arccos(np.clip((directions @ ahead).min(), -1, 1))
+    if radius > np.radians(_CAMERA_EDGE_DEG):
+        return None
+    # A turning scanner that looks up sees the zenith at one edge of its grid, a camera sees it in the middle.
+    rows, cols = np.nonzero(valid)
+    middle = (np.abs(rows - (height - 1) / 2) <= height / 6) & (np.abs(cols - (width - 1) / 2) <= width / 6)
+    if not middle.any() or np.arccos(np.clip(directions[middle].mean(axis=0) @ ahead, -1, 1)) > 0.5 * radius:
+        return None
+    return np.array([0.0, -np.sign(ahead[2]), 0.0])
+
+
+def frame_with_up(up):
+    """Return the (3, 3) rotation by quarter turns that brings a direction as near to +Z as such turns can.
+
+    Parameters
+    ----------
+    up : (3,) float
+    """
+    axis = int(np.argmax(np.abs(up)))
+    return _FRAMES[axis, bool(up[axis] > 0)]
+
+
+# By the axis that is up, and whether its positive end is. X stays X, or becomes -X, where it can.
+_FRAMES = {
+    (2, True): np.eye(3),
+    (2, False): np.diag([1.0, -1.0, -1.0]),
+    (1, True): np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
+    (1, False): np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
+    (0, True): np.array([[0.0, 0, -1], [0, 1, 0], [1, 0, 0]]),
+    (0, False): np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
+}
 
 
 def turned(vertical, horizontal):
@@ -60,28 +144,36 @@ def turned(vertical, horizontal):
     return slice(None, None, -1 if vertical else None), slice(None, None, -1 if horizontal else None)
 
 
-def flipped(scan, *, vertical=False, horizontal=False):
-    """The same scan with its rows and/or its columns in the opposite order; points and pose stay as they are.
+def flipped(scan, *, vertical=False, horizontal=False, turn_deg=0):
+    """The same scan with its grid turned, then its rows and/or its columns in the opposite order.
+
+    Points and pose stay as they are.
 
     Parameters
     ----------
     scan : Scan
     vertical, horizontal : bool
         Turn the order of the rows; of the columns.
+    turn_deg : int
+        0, 90, 180 or 270: turn the image clockwise before.
 
     Returns
     -------
     Scan
     """
-    if not (vertical or horizontal):
+    if not (vertical or horizontal or turn_deg):
         return scan
-    turn = turned(vertical, horizontal)
+    flips = turned(vertical, horizontal)
+
+    def of(grid):
+        return None if grid is None else np.rot90(grid, -turn_deg // 90)[flips]
+
     return replace(
         scan,
-        points=scan.points[turn],
-        reflectance=scan.reflectance[turn],
-        valid=scan.valid[turn],
-        color=None if scan.color is None else scan.color[turn],
+        points=of(scan.points),
+        reflectance=of(scan.reflectance),
+        valid=of(scan.valid),
+        color=of(scan.color),
     )
 
 
@@ -94,6 +186,26 @@ def _sampled(points, valid):
 def _lag(size):
     """How many pixels apart pairs are taken: some, to stand above the noise, but few, to stay on one side of a turn."""
     return max(1, min(8, size // 8))
+
+
+def _swapped(directions, valid):
+    """Whether the elevation changes along the rows instead of along the columns."""
+    if 1 in valid.shape:
+        return False
+    along, across = _rise(directions, valid), _rise(directions.swapaxes(0, 1), valid.T)
+    return across >= _CLEAR and across > _SWAPPED * along
+
+
+def _rise(directions, valid):
+    """0..1: how much of the way from row to row is up, or down, and how surely."""
+    lag = _lag(valid.shape[0])
+    both = valid[:-lag] & valid[lag:]
+    elevation = np.arcsin(np.clip(directions[..., 2], -1, 1))
+    up = (elevation[:-lag] - elevation[lag:])[both]
+    way = np.sqrt(((directions[:-lag] - directions[lag:])[both] ** 2).sum(axis=-1))
+    moved = way > 0
+    sure = _agreement(up)
+    return abs(sure) * float(np.median(np.abs(up[moved]) / way[moved])) if sure is not None and moved.any() else 0.0
 
 
 def _upright_score(directions, valid):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import Cancelled, ScanError
-from ...scan.orientation import infer_flips, turned
+from ...scan.orientation import AS_STORED, infer_turn
 from ...scan.scan import Scan
 
 BYTES_PER_PIXEL = 120
@@ -69,18 +69,17 @@ def finish_scan(name, source, *, points, reflectance, valid, color, pose, warnin
             f"{place}: every point is more than {nearest / 1000:,.0f} km from the scanner's origin: the file holds "
             "world coordinates, so ranges and orientation mean little; rows and columns stay as stored"
         )
-        turn = turned(False, False)
+        turn = AS_STORED
     else:
-        flips = infer_flips(points, usable)
-        turn = turned(flips.vertical, flips.horizontal)
-        if not flips.certain:
+        turn = infer_turn(points, usable)
+        if not turn.certain:
             warnings.append(f"{place}: its points do not show which way is up; flip it if it looks wrong")
     return Scan(
         name=name,
-        points=points[turn],
-        reflectance=np.where(usable, reflectance, np.float32(0))[turn],
-        valid=usable[turn],
-        color=None if color is None else color[turn],
+        points=turn.of(points),
+        reflectance=turn.of(np.where(usable, reflectance, np.float32(0))),
+        valid=turn.of(usable),
+        color=turn.of(color),
         pose=pose,
         source=source,
         warnings=tuple(warnings),

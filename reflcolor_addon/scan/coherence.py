@@ -1,0 +1,85 @@
+"""Whether neighbors in a stored order are neighbors in space: what tells a scanner's grid from a list of points."""
+
+import numpy as np
+
+_PAIRS = 1 << 15
+_FEWEST = 30
+"""Fewer pairs of points tell nothing."""
+
+_CLEARLY_NEARER = 0.5
+"""How much nearer neighbors must be in another order before it is taken instead of the stated one."""
+
+_UNORDERED = 0.8
+"""From here on neighbors are about as far apart as any two points of the scan."""
+
+_ROUNDS = 3.0
+"""A scanner's profile goes around once; a list of the points of a whole grid goes back and forth many times."""
+
+
+def line_length(points, valid, candidates):
+    """Return the one of several lengths of line that a list of points was cut from.
+
+    Parameters
+    ----------
+    points : (N, 3) float64
+    valid : (N,) bool
+    candidates : sequence of int
+        Divisors of N; the first is taken unless another is clearly better.
+    """
+    apart = [_between_lines(points, valid, length) for length in candidates]
+    best = int(np.nanargmin(apart)) if np.isfinite(apart).any() else 0
+    stated = apart[0]
+    return candidates[best] if np.isfinite(stated) and apart[best] < _CLEARLY_NEARER * stated else candidates[0]
+
+
+def is_unordered(points, valid):
+    """Return whether the neighbors of a grid are no nearer to each other than any two of its points.
+
+    A grid of one row or column is also unordered where its points go back and forth, as those of a whole scan do.
+
+    Parameters
+    ----------
+    points : (H, W, 3) float64
+    valid : (H, W) bool
+    """
+    height, width = valid.shape
+    count = np.count_nonzero(valid)
+    if count < _FEWEST:
+        return False
+    flat, there = points.reshape(-1, 3), np.flatnonzero(valid)
+    picked = there[np.random.default_rng(0).integers(0, count, (2, _PAIRS))]
+    any_two = np.median(_distances(flat[picked[0]], flat[picked[1]]))
+    if 1 in (height, width):
+        return _goes_back_and_forth(flat[there]) or _apart(flat, there[:-1], there[1:]) > _UNORDERED * any_two
+    across, along = valid[:, :-1] & valid[:, 1:], valid[:-1] & valid[1:]
+    index = np.arange(height * width).reshape(height, width)
+    found = [
+        _apart(flat, start, start + step)
+        for start, step in ((index[:, :-1][across], 1), (index[:-1][along], width))
+        if start.size >= _FEWEST
+    ]
+    return bool(found) and min(found) > _UNORDERED * any_two
+
+
+def _between_lines(points, valid, length):
+    """Median distance from a point to the one at the same place of the next line; NaN where too few tell."""
+    start = np.flatnonzero(valid[:-length] & valid[length:]) if length < len(valid) else np.empty(0, int)
+    return _apart(points, start, start + length) if start.size >= _FEWEST else np.nan
+
+
+def _apart(points, one, other):
+    step = max(1, len(one) // _PAIRS)
+    return float(np.median(_distances(points[one[::step]], points[other[::step]])))
+
+
+def _distances(one, other):
+    difference = one - other
+    return np.sqrt(np.einsum("ij,ij->i", difference, difference))
+
+
+def _goes_back_and_forth(points):
+    """Whether the directions of a line of points, one after the other, turn through more than a few full turns."""
+    distance = np.sqrt(np.einsum("ij,ij->i", points, points))
+    directions = points[distance > 0] / distance[distance > 0, None]
+    steps = np.einsum("ij,ij->i", directions[:-1], directions[1:])
+    return float(np.arccos(np.clip(steps, -1, 1)).sum()) > _ROUNDS * 2 * np.pi
