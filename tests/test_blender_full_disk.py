@@ -36,7 +36,7 @@ def result():
 
 # Blender's own exporters leave files open when writing fails.
 @pytest.mark.filterwarnings("ignore::ResourceWarning", "ignore::pytest.PytestUnraisableExceptionWarning")
-@pytest.mark.parametrize("name", ["wall.blend", "wall.glb", "wall.ply", "render.png"])
+@pytest.mark.parametrize("name", ["wall.blend", "wall.usd", "render.png"])
 def test_a_full_disk_is_one_line_and_the_old_file_survives(blender, tmp_path, capfd, monkeypatch, result, name):
     module = importlib.import_module(f"{SCENE}.write_results")
     monkeypatch.setattr(f"{SCENE}.render.SIZE", (64, 40))

@@ -1,19 +1,21 @@
 """The files that the command line writes through Blender, read back by other means."""
 
 import json
-import struct
 import subprocess
 import sys
-from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from gltf_files import encoded
+from pxr import Usd, UsdGeom, UsdShade
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds, colorize, read_scans
+from reflcolor_addon.files.whole import fault_of
 from reflcolor_addon.files.writers.ptx import write_ptx
 
+KINDS = ("png", "blend", "usd", "glb", "ply")
 READ_BLEND = """
 import bpy, json, os, sys
 import numpy as np
@@ -47,7 +49,7 @@ def results(blender_command, tmp_path_factory):
     write_ptx(type(scan)(name="wall", points=scan.points, reflectance=scan.reflectance, valid=valid), folder / "w.ptx")
     seeds = Seeds([0, 7, 4], [0, 11, 2], np.array([[220, 60, 30], [30, 90, 200], [60, 180, 60]], np.uint8))
     seeds.save(folder / "seeds.json")
-    outputs = [part for suffix in ("png", "blend", "glb", "ply") for part in ("-o", folder / f"wall.{suffix}")]
+    outputs = [part for suffix in KINDS for part in ("-o", folder / f"wall.{suffix}")]
     done = blender_command(
         *("colorize", folder / "w.ptx", "--seeds", folder / "seeds.json", *outputs),
         *("--render", folder / "render.png", "--report", folder / "report.json"),
@@ -60,7 +62,7 @@ def results(blender_command, tmp_path_factory):
 
 def test_only_the_results_are_left(results):
     names = {path.name for path in results[0].iterdir()}
-    kinds = {f"wall.{suffix}" for suffix in ("png", "blend", "glb", "ply")}
+    kinds = {f"wall.{suffix}" for suffix in KINDS}
     assert names == kinds | {"w.ptx", "seeds.json", "render.png", "report.json"}
 
 
@@ -78,63 +80,39 @@ def test_the_blend_holds_the_colors_and_is_ready_to_render(results, tmp_path):
     assert "VERTEX" in read["shading"] and "MATERIAL" not in read["shading"]
 
 
-def test_the_glb_holds_the_colors(results):
+def test_the_usd_shows_the_colors_and_keeps_the_attributes(results):
     folder, rgb = results
-    # They are linear.
-    colors = glb_attribute(folder / "wall.glb", "COLOR_0")[:, :3]
-    assert np.abs(encoded(colors) - rgb[glb_places(folder)]).max() <= 1
-
-
-@pytest.fixture(scope="module")
-def trust(results):
-    """Confidence and index of the nearest seed, of every vertex, by the core."""
-    folder, _ = results
     (scan,) = read_scans(folder / "w.ptx")
-    result = colorize(scan, Seeds.load(folder / "seeds.json"))
-    return result.confidence[scan.valid], result.nearest_seed[scan.valid]
+    found = colorize(scan, Seeds.load(folder / "seeds.json"))
+    stage = Usd.Stage.Open(str(folder / "wall.usd"))
+    assert UsdGeom.GetStageUpAxis(stage) == "Z" and UsdGeom.GetStageMetersPerUnit(stage) == 1
+    (mesh,) = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    points = np.array(mesh.GetPointsAttr().Get())
+    np.testing.assert_allclose(points, scan.points[scan.valid], atol=1e-5)
+    shown = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("displayColor")
+    assert shown.GetTypeName() == "color3f[]" and shown.GetInterpolation() == "vertex"
+    # It is linear.
+    np.testing.assert_array_equal(encoded(np.array(shown.Get(), np.float64)), rgb)
+    values = {
+        name: np.array(UsdGeom.PrimvarsAPI(mesh).GetPrimvar(name).Get()) for name in ("confidence", "nearest_seed")
+    }
+    np.testing.assert_allclose(values["confidence"], found.confidence[scan.valid], rtol=1e-5)
+    np.testing.assert_array_equal(values["nearest_seed"], found.nearest_seed[scan.valid])
 
 
-def test_the_glb_holds_confidence_and_nearest_seed(results, trust):
-    vertex = glb_places(results[0])
-    confidence, nearest = (
-        glb_attribute(results[0] / "wall.glb", name)[:, 0] for name in ("_CONFIDENCE", "_NEAREST_SEED")
-    )
-    np.testing.assert_allclose(confidence, trust[0][vertex], rtol=1e-4)
-    np.testing.assert_array_equal(nearest, trust[1][vertex])
+def test_the_surface_of_the_usd_reads_the_colors(results):
+    stage = Usd.Stage.Open(str(results[0] / "wall.usd"))
+    (mesh,) = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
+    surface = material.ComputeSurfaceSource()[0]
+    assert surface.GetIdAttr().Get() == "UsdPreviewSurface"
+    reader = UsdShade.Shader(surface.GetInput("diffuseColor").GetConnectedSources()[0][0].source.GetPrim())
+    assert reader.GetIdAttr().Get() == "UsdPrimvarReader_float3"
+    assert reader.GetInput("varname").Get() == "displayColor"
 
 
-def test_the_ply_holds_confidence_and_nearest_seed(results, trust):
-    table, vertex = ply_vertices(results[0])
-    np.testing.assert_allclose(table["confidence"], trust[0][vertex], rtol=1e-4)
-    np.testing.assert_array_equal(table["nearest_seed"], trust[1][vertex])
-
-
-def test_the_ply_holds_the_colors(results):
-    folder, rgb = results
-    table, vertex = ply_vertices(folder)
-    colors = np.stack([table["red"], table["green"], table["blue"]], axis=-1).astype(int)
-    assert np.abs(colors - rgb[vertex]).max() <= 1
-
-
-def ply_vertices(folder):
-    """The table of the PLY's vertices, and which return of the scan each of them is."""
-    header, _, body = (folder / "wall.ply").read_bytes().partition(b"end_header\n")
-    names = [line.split()[-1].decode() for line in header.splitlines() if line.startswith(b"property")]
-    kinds = [line.split()[1].decode() for line in header.splitlines() if line.startswith(b"property")]
-    count = int(next(line for line in header.splitlines() if line.startswith(b"element vertex")).split()[-1])
-    dtype = np.dtype(
-        [
-            (n, {"float": "<f4", "uchar": "u1", "int": "<i4"}[k])
-            for n, k in zip(names, kinds, strict=True)
-            if k != "list"
-        ]
-    )
-    table = np.frombuffer(body, dtype, count)
-    (scan,) = read_scans(folder / "w.ptx")
-    world = np.stack([table["x"], table["y"], table["z"]], axis=-1)
-    vertex = np.argmin(((world[:, None] - scan.points[scan.valid][None]) ** 2).sum(axis=-1), axis=1)
-    assert np.abs(world - scan.points[scan.valid][vertex]).max() < 1e-4
-    return table, vertex
+def test_ply_and_glb_are_written_beside_them(results):
+    assert fault_of(results[0] / "wall.ply") is None and fault_of(results[0] / "wall.glb") is None
 
 
 def test_the_render_shows_the_mesh_large_and_in_its_colors(results):
@@ -157,33 +135,3 @@ def test_an_unwritable_place_is_refused_before_the_work(blender_command, results
     )
     assert done.returncode == 1
     assert "Traceback" not in done.stderr and "missing" in done.stderr.strip().splitlines()[-1]
-
-
-def glb_places(folder):
-    """Which return of the scan each vertex of the GLB is."""
-    (scan,) = read_scans(folder / "w.ptx")
-    # glTF has Y up.
-    world = glb_attribute(folder / "wall.glb", "POSITION")[:, [0, 2, 1]] * (1, -1, 1)
-    return np.argmin(((world[:, None] - scan.points[scan.valid][None]) ** 2).sum(axis=-1), axis=1)
-
-
-def glb_attribute(path, name):
-    """(N, width) values of an attribute of the only primitive of a GLB."""
-    data = Path(path).read_bytes()
-    length = struct.unpack("<I", data[12:16])[0]
-    document, binary = json.loads(data[20 : 20 + length]), data[28 + length :]
-    (mesh,) = document["meshes"]
-    (primitive,) = mesh["primitives"]
-    accessor = document["accessors"][primitive["attributes"][name]]
-    view = document["bufferViews"][accessor["bufferView"]]
-    kind = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}[accessor["componentType"]]
-    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor["type"]]
-    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-    array = np.frombuffer(binary, kind, accessor["count"] * width, start).reshape(-1, width)
-    return array / np.iinfo(kind).max if accessor.get("normalized") else array
-
-
-def encoded(linear):
-    """sRGB 0..255 of linear colors."""
-    low = linear <= 0.0031308
-    return np.rint(255 * np.where(low, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9) ** (1 / 2.4) - 0.055))

@@ -1,7 +1,6 @@
 """Several scans of one site through the command line, read back from the files that Blender wrote."""
 
 import json
-import struct
 import subprocess
 import sys
 from dataclasses import replace
@@ -9,6 +8,8 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
+from gltf_files import encoded
+from pxr import Usd, UsdGeom
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds, colorize, read_scans
@@ -49,8 +50,8 @@ def results(blender_command, tmp_path_factory):
         Seeds([0, 7], [0, 11], [[220, 60 + 90 * number, 30], [30, 90, 200]]).save(folder / f"{name}.json")
     done = blender_command(
         *("colorize", folder / "south.ptx", folder / "east.ptx", "--seeds", folder / "{scan}.json"),
-        *("-o", folder / "site.blend", "-o", folder / "site.glb", "-o", folder / "site.ply"),
-        *("-o", folder / "one_{scan}.blend", "-o", folder / "one_{scan}.glb", "-o", folder / "{scan}.png"),
+        *("-o", folder / "site.blend", "-o", folder / "site.usd"),
+        *("-o", folder / "one_{scan}.blend", "-o", folder / "{scan}.png"),
         *("--render", folder / "site.png"),
         timeout=300,
     )
@@ -70,15 +71,10 @@ def read_blend(path, tmp_path):
     return json.loads(facts.read_text())
 
 
-def glb_document(path):
-    data = path.read_bytes()
-    return json.loads(data[20 : 20 + struct.unpack("<I", data[12:16])[0]])
-
-
 def test_only_the_results_are_left(results):
-    made = {f"site.{suffix}" for suffix in ("blend", "glb", "ply", "png")}
+    made = {f"site.{suffix}" for suffix in ("blend", "usd", "png")}
     for name in NAMES:
-        made |= {f"{name}.ptx", f"{name}.json", f"{name}.png", f"one_{name}.blend", f"one_{name}.glb"}
+        made |= {f"{name}.ptx", f"{name}.json", f"{name}.png", f"one_{name}.blend"}
     assert {path.name for path in results.iterdir()} == made
 
 
@@ -102,33 +98,16 @@ def test_a_blend_of_one_scan_holds_nothing_of_the_others(results, tmp_path):
     assert np.abs(np.array(found["scans"]["east"]["rgb"]) - rgb).max() <= 1
 
 
-def test_the_glb_holds_every_scan_with_all_its_attributes(results):
-    document = glb_document(results / "site.glb")
-    nodes = {node["name"]: node for node in document["nodes"] if "mesh" in node}
-    assert sorted(nodes) == sorted(NAMES)
-    # glTF has Y up.
-    np.testing.assert_allclose(nodes["east"]["translation"], [6, 0.5, 2], atol=1e-5)
-    for node in nodes.values():
-        (primitive,) = document["meshes"][node["mesh"]]["primitives"]
-        assert {"COLOR_0", "_CONFIDENCE", "_NEAREST_SEED"} <= set(primitive["attributes"])
-    assert [node["name"] for node in glb_document(results / "one_south.glb")["nodes"]] == ["south"]
-
-
-def test_the_ply_holds_the_points_of_all_scans_in_the_world(results):
-    header, _, body = (results / "site.ply").read_bytes().partition(b"end_header\n")
-    lines = [line.split(maxsplit=2) for line in header.decode().splitlines()]
-    count = next(int(line[2]) for line in lines if line[:2] == ["element", "vertex"])
-    kinds = {"float": "<f4", "uchar": "u1", "int": "<i4"}
-    table = np.frombuffer(body, [(w[2], kinds[w[1]]) for w in lines if w[0] == "property" and w[1] in kinds], count)
-    points = np.stack([table["x"], table["y"], table["z"]], axis=-1)
-    for name in NAMES:
-        scan, rgb = scan_and_colors(results, name)
-        world = scan.points[scan.valid] @ scan.pose[:3, :3].T + scan.pose[:3, 3]
-        vertex = np.argmin(((points[None] - world[:, None]) ** 2).sum(axis=-1), axis=1)
-        assert np.abs(points[vertex] - world).max() < 1e-4
-        colors = np.stack([table[channel][vertex] for channel in ("red", "green", "blue")], axis=-1).astype(int)
-        assert np.abs(colors - rgb).max() <= 1
-    assert {"confidence", "nearest_seed"} <= set(table.dtype.names)
+def test_the_usd_holds_every_scan_in_its_place(results):
+    stage = Usd.Stage.Open(str(results / "site.usd"))
+    meshes = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert sorted(prim.GetParent().GetName() for prim in meshes) == sorted(NAMES)
+    for prim in meshes:
+        scan, rgb = scan_and_colors(results, prim.GetParent().GetName())
+        place = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(prim)).T
+        np.testing.assert_allclose(place, scan.pose, atol=1e-5)
+        shown = UsdGeom.PrimvarsAPI(prim).GetPrimvar("displayColor").Get()
+        np.testing.assert_array_equal(encoded(np.array(shown, np.float64)), rgb)
 
 
 def test_the_render_is_filled_by_the_first_scan(results):

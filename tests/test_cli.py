@@ -4,9 +4,12 @@ import hashlib
 import json
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from command_line import COLORIZE, SHAPE, assert_refused, blender_tasks, run_process, save_seeds
+from gltf_files import Glb, encoded
+from plyfile import PlyData
 from small_scans import random_scan
 
 from reflcolor_addon import OutputError, Seeds, Settings, colorize, read_scans
@@ -226,7 +229,7 @@ def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder
             path.write_bytes(b"scene")
 
     status, out, err = run_cli(
-        *COLORIZE, "-o", "a.blend", "-o", "a.png", "-o", "a.GLB", "--render", "view.png", "--report", "r.json",
+        *COLORIZE, "-o", "a.blend", "-o", "a.png", "-o", "a.USD", "--render", "view.png", "--report", "r.json",
         blender=blender_tasks(write_scene=write_scene),
     )  # fmt: skip
     assert (status, err) == (0, "")
@@ -236,7 +239,7 @@ def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder
         "wrote",
         "a.png",
         "wrote",
-        "a.GLB",
+        "a.USD",
         "wrote",
         "view.png",
         "wrote",
@@ -244,7 +247,7 @@ def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder
     ]
     ((name, shape, paths, render, provenance),) = calls
     assert (name, shape) == ("garage", (*SHAPE, 3))
-    assert (paths, render) == ([Path("a.blend"), Path("a.GLB")], Path("view.png"))
+    assert (paths, render) == ([Path("a.blend"), Path("a.USD")], Path("view.png"))
     report = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))
     assert report.pop("times_s")["write"] >= 0
     # What is kept in the .blend cannot hold its hash.
@@ -253,9 +256,32 @@ def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder
     assert provenance["versions"]["blender"] == "5.2.2 LTS"
 
 
+def test_meshes_are_written_without_blender_and_hold_the_result(run_cli, cli_folder):
+    assert run_cli(*COLORIZE, "-o", "a.png", "-o", "a.ply", "-o", "a.glb", "--report", "r.json")[0] == 0
+    rgb = cv2.imread(str(cli_folder / "a.png"))[..., ::-1].reshape(-1, 3)
+    table = PlyData.read(cli_folder / "a.ply")["vertex"]
+    place = table["grid_row"] * SHAPE[1] + table["grid_col"]
+    colors = np.stack([table[channel] for channel in ("red", "green", "blue")], axis=1)
+    np.testing.assert_array_equal(colors, rgb[place])
+    glb = Glb(cli_folder / "a.glb")
+    np.testing.assert_array_equal(encoded(glb.attribute("COLOR_0")[:, :3]), rgb[place])
+    for name in ("confidence", "nearest_seed", "reflectance"):
+        np.testing.assert_array_equal(glb.attribute(f"_{name.upper()}")[:, 0], table[name])
+    report = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))
+    assert [entry["path"] for entry in report["outputs"] if "sha256" in entry] == ["a.png", "a.ply", "a.glb"]
+
+
+def test_a_glb_that_would_be_too_large_is_refused_before_the_work(run_cli, cli_folder, monkeypatch):
+    monkeypatch.setattr("reflcolor_addon.files.writers.glb._LARGEST", 10_000)
+    monkeypatch.setattr("reflcolor_addon.batch.pipeline.colorize_job", None)
+    before = sorted(cli_folder.iterdir())
+    assert_refused(run_cli(*COLORIZE, "-o", "a.glb"), 1, "a.glb: would have", "4 GiB", "--faces")
+    assert sorted(cli_folder.iterdir()) == before
+
+
 @pytest.mark.parametrize(
     "arguments",
-    [("-o", "out.blend"), ("-o", "out.png", "-o", "out.glb"), ("-o", "out.ply"), ("-o", "a.png", "--render", "b.png")],
+    [("-o", "out.blend"), ("-o", "out.png", "-o", "out.usd"), ("-o", "a.png", "--render", "b.png")],
 )
 def test_without_blender_what_needs_it_is_wrong_usage(run_cli, cli_folder, arguments):
     before = sorted(cli_folder.iterdir())
@@ -266,10 +292,10 @@ def test_without_blender_what_needs_it_is_wrong_usage(run_cli, cli_folder, argum
 def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cli_folder):
     def write_scene(_results, paths, _render, _progress):
         paths[0].write_bytes(b"scene")
-        raise OutputError("b.glb: cannot be written (No space left on device)")
+        raise OutputError("b.usd: cannot be written (No space left on device)")
 
     outcome = run_cli(
-        *COLORIZE, "-o", "a.blend", "-o", "b.glb", "-o", "c.png", blender=blender_tasks(write_scene=write_scene)
+        *COLORIZE, "-o", "a.blend", "-o", "b.usd", "-o", "c.png", blender=blender_tasks(write_scene=write_scene)
     )
-    assert_refused(outcome, 1, "b.glb: cannot be written", "; already written: a.blend\n")
+    assert_refused(outcome, 1, "b.usd: cannot be written", "; already written: a.blend\n")
     assert not (cli_folder / "c.png").exists()

@@ -61,11 +61,11 @@ def test_an_interruption_while_blender_writes_ends_it_and_names_what_is_there(ru
         paths[0].write_bytes(b"scene")
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(Cancelled):
-            progress(0.5, "Writing b.glb")
+            progress(0.5, "Writing b.usd")
         raise Cancelled
 
     status, out, err = run_cli(
-        *COLORIZE, "-o", "a.blend", "-o", "b.glb", blender=blender_tasks(write_scene=write_scene)
+        *COLORIZE, "-o", "a.blend", "-o", "b.usd", blender=blender_tasks(write_scene=write_scene)
     )
     assert (status, out, err) == (130, "", "error: interrupted; already written: a.blend\n")
 

@@ -9,6 +9,8 @@ import numpy as np
 import painted_room
 import pytest
 from command_line import COLORIZE, SHAPE, assert_refused, blender_tasks
+from gltf_files import Glb
+from plyfile import PlyData
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, Seeds, Settings, colorize, read_scans
@@ -267,22 +269,31 @@ def test_a_scene_holds_all_scans_and_one_with_the_placeholder_each(run_cli, site
         for name, rgb, report in made:
             assert (rgb == expected_colors(name)).all()
             assert [entry["path"] for entry in report["outputs"]] == [
-                f"{name}.glb",
+                f"{name}.usd",
                 "all.blend",
                 "all.png",
                 f"{name}_r",
             ]
 
-    options = ("-o", "{scan}.glb", "-o", "all.blend", "--render", "all.png", "--report", "{scan}_r")
+    options = ("-o", "{scan}.usd", "-o", "all.blend", "--render", "all.png", "--report", "{scan}_r")
     status, out, err = run_cli(*SITE, *options, blender=blender_tasks(write_scene=write_scene))
     assert (status, err) == (0, "")
     assert calls == [
-        (["south"], ["south.glb"], None),
-        (["east"], ["east.glb"], None),
+        (["south"], ["south.usd"], None),
+        (["east"], ["east.usd"], None),
         (["south", "east"], ["all.blend"], "all.png"),
     ]
-    names = ("south.glb", "east.glb", "all.blend", "all.png", "south_r", "east_r")
+    names = ("south.usd", "east.usd", "all.blend", "all.png", "south_r", "east_r")
     assert out == "".join(f"wrote {name}\n" for name in names)
+
+
+def test_a_mesh_holds_all_scans_and_one_with_the_placeholder_each(run_cli, site):
+    options = ("-o", "all.ply", "-o", "{scan}.ply", "-o", "all.glb")
+    assert run_cli(*SITE, *options)[0] == 0
+    whole, south, east = (PlyData.read(site / f"{name}.ply")["vertex"] for name in ("all", "south", "east"))
+    np.testing.assert_array_equal(whole["scan"], np.repeat([0, 1], [south.count, east.count]))
+    np.testing.assert_array_equal(whole["red"], np.concatenate([south["red"], east["red"]]))
+    assert [node["name"] for node in Glb(site / "all.glb").document["nodes"]] == ["south", "east"]
 
 
 def test_a_scan_is_let_go_when_nothing_needs_it_any_more(run_cli, site):
@@ -296,24 +307,24 @@ def test_a_scan_is_let_go_when_nothing_needs_it_any_more(run_cli, site):
             path.write_bytes(b"scene")
 
     tasks = blender_tasks(write_scene=write_scene)
-    assert run_cli(*SITE, "-o", "{scan}.glb", blender=tasks)[0] == 0
+    assert run_cli(*SITE, "-o", "{scan}.usd", blender=tasks)[0] == 0
     assert len(met) == 2
     met.clear()
-    assert run_cli(*SITE, "-o", "all.glb", blender=tasks)[0] == 0
+    assert run_cli(*SITE, "-o", "all.usd", blender=tasks)[0] == 0
     assert len(met) == 2
 
 
 def test_an_interruption_leaves_whole_files_and_names_them(run_cli, site):
     def write_scene(_results, paths, _render, progress):
-        if paths[0].name == "east.glb":
+        if paths[0].name == "east.usd":
             signal.raise_signal(signal.SIGINT)
             progress(0.5, "Writing")
         paths[0].write_bytes(b"scene")
 
     before = files(site)
-    outcome = run_cli(*SITE, "-o", "{scan}.glb", "-o", "{scan}.png", blender=blender_tasks(write_scene=write_scene))
-    assert outcome == (130, "", "error: interrupted; already written: south.glb\n")
-    assert files(site) == sorted([*before, Path("south.glb")])
+    outcome = run_cli(*SITE, "-o", "{scan}.usd", "-o", "{scan}.png", blender=blender_tasks(write_scene=write_scene))
+    assert outcome == (130, "", "error: interrupted; already written: south.usd\n")
+    assert files(site) == sorted([*before, Path("south.usd")])
 
 
 def test_images_alone_are_written_when_all_scans_are_colorized(run_cli, site, monkeypatch):

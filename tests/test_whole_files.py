@@ -6,6 +6,7 @@ import struct
 import cv2
 import numpy as np
 import pytest
+from pxr import Usd, UsdGeom
 from small_scans import random_scan
 
 from reflcolor_addon.files.e57_pages import checksums
@@ -67,6 +68,10 @@ def whole(tmp_path, request):
         path.write_bytes(cv2.imencode(".jpg", IMAGE)[1])
     elif kind in ("ptx", "e57"):
         {"ptx": write_ptx, "e57": write_e57}[kind]([random_scan(), random_scan(1)], path)
+    elif kind == "usd":
+        stage = Usd.Stage.CreateNew(str(path))
+        UsdGeom.Mesh.Define(stage, "/wall").CreatePointsAttr([(0.0, 0.0, number) for number in range(50)])
+        stage.Save()
     elif kind == "blend":
         path.write_bytes(packed_blend() if path.stem == "packed" else blend(path.stem == "five"))
     elif kind == "json":
@@ -79,7 +84,7 @@ def whole(tmp_path, request):
 
 KINDS = (
     *("color.png", "gray.png", "photo.jpg", "report.json", "little.ply", "big.ply", "text.ply", "scene.glb"),
-    *("four.blend", "five.blend", "packed.blend", "garage.ptx", "garage.e57"),
+    *("scene.usd", "four.blend", "five.blend", "packed.blend", "garage.ptx", "garage.e57"),
 )
 
 

@@ -1,7 +1,4 @@
-"""The files that only Blender writes: .blend, .glb, .ply and a rendered picture."""
-
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
-from io import StringIO
+"""The files that only Blender writes: .blend, .usd and a rendered picture."""
 
 import bpy
 
@@ -12,9 +9,10 @@ from ...reflcolor_addon.scan.object_arrays import object_arrays
 from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
 from .provenance import record_provenance
-from .render import render, set_up_picture
-from .scan_object import CONFIDENCE, NEAREST_SEED, add_scan_object
+from .render import add_camera_and_lights, render
+from .scan_object import add_scan_object
 from .seed_list import append_seeds
+from .usd import write_usd
 
 
 def write_results(jobs, paths, picture, progress):
@@ -25,7 +23,7 @@ def write_results(jobs, paths, picture, progress):
     jobs : iterable of ScanJob
         Each is colorized and has its report, which is kept with the scan's object.
     paths : list of Path
-        Files to write: .blend, .glb or .ply.
+        Files to write: .blend or .usd.
     picture : Path or None
         PNG file to render.
     progress : callable
@@ -48,7 +46,7 @@ def write_results(jobs, paths, picture, progress):
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
     if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
         # All of a site's scans together would be looked at from far above what they stand around.
-        set_up_picture(context, objects[0])
+        add_camera_and_lights(context, objects[0])
     if picture is not None:
         steps.append((picture, lambda path: render(context, path)))
     for done, (path, write) in enumerate(steps):
@@ -80,46 +78,8 @@ def _write_blend(path):
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, compress=True, check_existing=False)
 
 
-def _write_glb(path):
-    # The exporter prints its own progress, and "ERROR" for compressions that are not used here.
-    with redirect_stdout(StringIO()), redirect_stderr(StringIO()), _named_for_gltf(bpy.context.selected_objects):
-        bpy.ops.export_scene.gltf(
-            filepath=str(path),
-            export_format="GLB",
-            use_selection=True,
-            export_extras=False,
-            export_apply=False,
-            export_attributes=True,
-        )
+def _write_usd(path):
+    write_usd(bpy.context, bpy.context.selected_objects, path)
 
 
-@contextmanager
-def _named_for_gltf(objects):
-    """Call attributes, within the block, as glTF calls an application's own: it drops those of other names."""
-    names = {name: f"_{name.upper()}" for name in (CONFIDENCE, NEAREST_SEED)}
-    for obj in objects:
-        for name, exported in names.items():
-            obj.data.attributes[name].name = exported
-    try:
-        yield
-    finally:
-        for obj in objects:
-            for name, exported in names.items():
-                obj.data.attributes[exported].name = name
-
-
-def _write_ply(path):
-    bpy.ops.wm.ply_export(
-        filepath=str(path),
-        export_selected_objects=True,
-        export_colors="SRGB",
-        export_uv=True,
-        export_attributes=True,
-        ascii_format=False,
-        check_existing=False,
-        forward_axis="Y",
-        up_axis="Z",
-    )
-
-
-_WRITERS = {".blend": _write_blend, ".glb": _write_glb, ".ply": _write_ply}
+_WRITERS = {".blend": _write_blend, ".usd": _write_usd}

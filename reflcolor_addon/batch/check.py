@@ -5,11 +5,13 @@ from pathlib import Path
 
 from ..errors import ReflcolorError, SeedsError, UsageError
 from ..files.images import read_image
+from ..files.writers.glb import check_glb_size
 from ..messages import Message
 from ..seeds.seeds import Seeds
 from .blender_tasks import require_blender
 from .paths import output_faults, photo_files, scan_files
 from .plan import PLACEHOLDER
+from .scan_job import surface_of
 
 ALL = "all"
 
@@ -53,7 +55,7 @@ def check_plan(plan, blender=None, *, refuse=_raise):
         refuse(UsageError("--seeds or --photo: give seeds, or photos to find them in"))
     _check_choice(plan, refuse)
     for output in plan.outputs:
-        if output.is_scene:
+        if output.needs_blender:
             _attempt(refuse, require_blender, blender, f"{output.option} {output.path}")
     check_placeholder(plan, len(plan.scans), refuse)
     warnings, seeds, hand = [], None, None
@@ -86,6 +88,11 @@ def check_jobs(plan, jobs, *, refuse=_raise):
     named = dict.fromkeys((output.option, output.path) for output in outputs)
     for fault in output_faults(list(named), read):
         refuse(fault)
+    for output in plan.outputs:
+        if output.path.suffix.lower() == ".glb":
+            together = [[job] for job in jobs] if output.is_of_each else [jobs]
+            for group in together:
+                _attempt(refuse, check_glb_size, [surface_of(job) for job in group], output.of(group[0].label).path)
 
 
 def check_placeholder(plan, count, refuse=_raise):

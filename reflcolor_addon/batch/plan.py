@@ -8,8 +8,9 @@ from ..settings import Settings
 
 PLACEHOLDER = "{scan}"
 """Stands for a scan's label in the path of what each of several scans has of its own."""
-IMAGE, SCENE, RENDER, REPORT, SEEDS, MATCHES = "image", "scene", "render", "report", "seeds", "matches"
-RESULT_SUFFIXES = {".png": IMAGE, ".blend": SCENE, ".glb": SCENE, ".ply": SCENE}
+IMAGE, MESH, SCENE = "image", "mesh", "scene"
+RENDER, REPORT, SEEDS, MATCHES = "render", "report", "seeds", "matches"
+RESULT_SUFFIXES = {".png": IMAGE, ".ply": MESH, ".glb": MESH, ".blend": SCENE, ".usd": SCENE}
 """What a colorized scan is written as, by the suffix of its file."""
 
 
@@ -34,6 +35,11 @@ class Output:
     @property
     def is_scene(self):
         """Whether it shows a scene, in which there is room for several scans."""
+        return self.needs_blender or self.kind == MESH
+
+    @property
+    def needs_blender(self):
+        """Whether only Blender can write it."""
         return self.kind in (SCENE, RENDER)
 
     @property

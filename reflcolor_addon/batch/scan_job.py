@@ -7,6 +7,7 @@ from pathlib import Path
 from ..color.colorization import Colorization
 from ..matching import Matching
 from ..scan.scan import Scan
+from ..scan.surface import ScanSurface
 from ..seeds.seeds import Seeds
 from .plan import Output
 
@@ -64,3 +65,10 @@ class ScanJob:
         if callable(self.scan):
             self.scan = self.scan()
         return self.scan
+
+
+def surface_of(job):
+    """Return the surface of a job's scan as it is written into meshes; without colors as long as there are none."""
+    if job.colorization is None:
+        return ScanSurface(job.scan, None)
+    return ScanSurface(job.scan, job.colorization.rgb, job.colorization.values)

@@ -6,11 +6,14 @@ from pathlib import Path
 
 from ..files.atomic import written_atomically
 from ..files.images import write_png
+from ..files.writers.glb import write_glb
+from ..files.writers.ply import write_ply
 from ..matching import draw_matches
 from ..messages import Message
 from ..report.report import build_report, input_entry, output_entry, photo_entry, scan_entry, stamped
 from .paths import tracked
-from .plan import IMAGE, MATCHES, RENDER, REPORT, SCENE, SEEDS
+from .plan import IMAGE, MATCHES, MESH, RENDER, REPORT, SCENE, SEEDS
+from .scan_job import surface_of
 from .session import timed
 
 
@@ -64,6 +67,7 @@ class _Writer:
                     _SEED_WRITERS[output.kind](job, self._plan, output.path)
             if self._reported:
                 job.report = self._report(job)
+            self._write_meshes([job], job.outputs)
             self._write_scenes([job], job.outputs)
         # Nothing that costs more than this is kept until all scans are colorized.
         self._rest.append((job, None if job.colorization is None else job.colorization.rgb))
@@ -73,6 +77,7 @@ class _Writer:
     def finish(self):
         """Write the scenes that hold all scans, images, and last the reports: those say how long the rest took."""
         with timed(shared := {}, "write"):
+            self._write_meshes([job for job, _ in self._rest], self._shared)
             self._write_scenes(self._let_go(), self._shared)
         for job, rgb in self._rest:
             with timed(job.times, "write"):
@@ -125,6 +130,13 @@ class _Writer:
         )
         return stamped(report)
 
+    def _write_meshes(self, jobs, outputs):
+        for output in outputs:
+            if output.kind == MESH:
+                write = _MESH_WRITERS[output.path.suffix.lower()]
+                surfaces = [surface_of(job) for job in jobs]
+                write(surfaces, output.path, progress=self._session.progress, cancelled=self._session.cancelled)
+
     def _write_scenes(self, jobs, outputs):
         paths = [output.path for output in outputs if output.kind == SCENE]
         render = next((output.path for output in outputs if output.kind == RENDER), None)
@@ -140,6 +152,7 @@ def _write_matches(job, plan, path):
     write_png(path, draw_matches(job.scan, plan.photos, job.seeds))
 
 
+_MESH_WRITERS = {".ply": write_ply, ".glb": write_glb}
 _SEED_WRITERS = {SEEDS: _write_seeds, MATCHES: _write_matches}
 
 

@@ -39,3 +39,8 @@ class Colorization:
     warnings: tuple[str, ...] = ()
     normalization: dict = field(default_factory=dict)
     method: dict = field(default_factory=dict)
+
+    @property
+    def values(self):
+        """(H, W) arrays of what is known of every color, by the name of the attribute that it is written as."""
+        return {"confidence": self.confidence, "nearest_seed": self.nearest_seed}

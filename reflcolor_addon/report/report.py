@@ -139,8 +139,7 @@ def output_entry(option, path, report_path, cancelled=None):
 
 def photo_entry(photo):
     """Return what a report says of a PhotoMatch."""
-    names = ("name", "verified", "tested", "reason", "note")
-    return {name: getattr(photo, name) for name in names}
+    return {"name": photo.name, "verified": photo.verified, "reason": photo.reason, "note": photo.note}
 
 
 def seed_entries(seeds, given):

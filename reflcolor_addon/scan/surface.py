@@ -36,8 +36,8 @@ class ScanSurface:
     Parameters
     ----------
     scan : Scan
-    rgb : (H, W, 3) uint8
-        sRGB of every pixel.
+    rgb : (H, W, 3) uint8 or None
+        sRGB of every pixel; None where only the surface's size is of interest.
     values : dict of (H, W) float or int, optional
         What else is known of every pixel, by a name of lower-case letters, digits and ``_``.
     max_incidence_deg : float
@@ -67,6 +67,11 @@ class ScanSurface:
         # Index of each row's first vertex, and behind the last one that of the seam's first.
         self._first = np.concatenate([[0], np.cumsum(np.count_nonzero(scan.valid, axis=1))])
         self.vertex_count = int(self._first[-1]) + self._split * int(np.count_nonzero(scan.valid[:, 0]))
+
+    @property
+    def has_colors(self):
+        """Whether its vertices can be handed out."""
+        return self._rgb is not None
 
     @cached_property
     def _mask(self):

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from ...batch.pipeline import run_plan
-from ...batch.plan import RENDER, REPORT, RESULT_SUFFIXES, SCENE, Output, Plan, result_output
+from ...batch.plan import IMAGE, MESH, RENDER, REPORT, RESULT_SUFFIXES, SCENE, Output, Plan, result_output
 from ...errors import UsageError
 from ..options import add_matching, add_photos, add_propagation, add_scans, settings_of
 
@@ -23,8 +23,10 @@ def add_arguments(parser):
     add_photos(parser, "photos that the seeds name (else looked for beside the seeds' file), or to find seeds in")
     add_propagation(parser)
     add_matching(parser)
-    scenes = [suffix for suffix, kind in RESULT_SUFFIXES.items() if kind == SCENE]
-    others = [suffix for suffix in RESULT_SUFFIXES if suffix not in scenes]
+    images, meshes, scenes = (
+        ", ".join(suffix for suffix, kind in RESULT_SUFFIXES.items() if kind == wanted)
+        for wanted in (IMAGE, MESH, SCENE)
+    )
     parser.add_argument(
         "-o",
         "--output",
@@ -32,8 +34,8 @@ def add_arguments(parser):
         type=Path,
         action="append",
         required=True,
-        help=f"file to write, once for each: {', '.join(others)} (colorized reflectance image), "
-        f"or in Blender {', '.join(scenes)}",
+        help=f"file to write, once for each: {images} (colorized reflectance image), {meshes} (colored mesh), "
+        f"or in Blender {scenes}",
     )
     parser.add_argument("--render", metavar="PNG", type=Path, help="picture of the colored mesh (in Blender)")
     parser.add_argument("--report", metavar="JSON", type=Path, help="what was done, and a hash of every input")

@@ -12,7 +12,7 @@ from .fault import Fault
 from .pictures import check_jpeg, check_png
 from .ply import check_ply
 from .scans import check_e57, check_ptx
-from .scenes import check_blend, check_glb
+from .scenes import check_blend, check_glb, check_usd
 from .texts import check_json
 
 _CHECKS = {
@@ -23,6 +23,7 @@ _CHECKS = {
     ".ply": check_ply,
     ".glb": check_glb,
     ".blend": check_blend,
+    ".usd": check_usd,
     ".ptx": check_ptx,
     ".e57": check_e57,
 }

@@ -1,4 +1,4 @@
-"""Whether a scene's file is whole: glTF's binary form, and Blender's own."""
+"""Whether a scene's file is whole: glTF's and USD's binary forms, and Blender's own."""
 
 import json
 import struct
@@ -32,6 +32,19 @@ def check_glb(file, size):
     for buffer in description.get("buffers", ()):
         if "uri" not in buffer and buffer["byteLength"] > held:
             raise Fault("{count:,} bytes of its data are missing", count=buffer["byteLength"] - held)
+
+
+def check_usd(file, size):
+    """A binary USD whose table of contents, its last part, and all sections are there."""
+    magic, _version, table = struct.unpack("<8s8sQ", exactly(file, 24))
+    if magic != b"PXR-USDC":
+        raise Fault("it is no binary USD")
+    file.seek(table)
+    (count,) = struct.unpack("<Q", exactly(file, 8))
+    for _name, start, length in struct.iter_unpack("<16sQQ", exactly(file, count * 32)):
+        if start + length > table:
+            raise Fault("its table of contents is damaged")
+    require_end(table + 8 + count * 32, size)
 
 
 def check_blend(file, size):

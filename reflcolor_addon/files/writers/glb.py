@@ -20,40 +20,22 @@ _HEADER = 12
 _CHUNK_HEADER = 8
 # A document of JSON needs room, too; a scan's part of it is far smaller.
 _JSON_PER_SCAN = 8192
+# What a colorization adds to a surface that has none yet.
+_MORE_VALUES = 4
 _TO_Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 _ROTATION_TOLERANCE = 1e-7
 _LINEAR = np.rint(srgb8_to_linear(np.arange(256)) * 65535).astype("<u2")
 
 
-def glb_bytes(surface, *, faces=None, texture=None):
-    """Return how many bytes of a GLB a surface takes, about: with all faces that its grid could have unless told.
-
-    Parameters
-    ----------
-    surface : ScanSurface
-    faces : int, optional
-        Faces of four corners.
-    texture : bytes, optional
-        The image on it.
-    """
-    vertex = 12 + 12 + 8 + 4 * len(surface.value_types)
-    faces = surface.vertex_count if faces is None else faces
-    # A vertex that is in no face is listed by its index.
-    return surface.vertex_count * (vertex + 4) + faces * 24 + len(texture or b"") + _JSON_PER_SCAN
-
-
 def check_glb_size(surfaces, path, *, textures=None):
     """Raise OutputError if the surfaces do not fit into a GLB, which ends at 4 GiB.
 
-    Faces are only counted where the answer depends on it.
+    Faces are only counted where the answer depends on it. Surfaces may be without their colors yet.
     """
     textures = textures or [None] * len(surfaces)
-    size = sum(glb_bytes(surface, texture=texture) for surface, texture in zip(surfaces, textures, strict=True))
+    size = _glb_bytes(surfaces, textures, lambda surface: surface.vertex_count)
     if size > _LARGEST:
-        size = sum(
-            glb_bytes(surface, faces=surface.face_count, texture=texture)
-            for surface, texture in zip(surfaces, textures, strict=True)
-        )
+        size = _glb_bytes(surfaces, textures, lambda surface: surface.face_count)
     if size > _LARGEST:
         raise OutputError(
             "{path}: would have {size:.1f} GiB, and a GLB ends at 4 GiB; make the mesh lighter with --faces, or write "
@@ -61,6 +43,17 @@ def check_glb_size(surfaces, path, *, textures=None):
             path=path,
             size=size / 2**30,
         )
+
+
+def _glb_bytes(surfaces, textures, faces):
+    """About how many bytes a GLB of surfaces has, with ``faces(surface)`` faces of four corners."""
+    size = 0
+    for surface, texture in zip(surfaces, textures, strict=True):
+        values = len(surface.value_types) + (0 if surface.has_colors else _MORE_VALUES)
+        # Place, normal and color; a vertex that is in no face is listed by its index.
+        size += surface.vertex_count * (12 + 12 + 8 + 4 * values + 4) + faces(surface) * 24
+        size += len(texture or b"") + _JSON_PER_SCAN
+    return size
 
 
 def write_glb(surfaces, path, *, textures=None, progress=None, cancelled=None):

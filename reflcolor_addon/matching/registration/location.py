@@ -8,13 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...messages import Message
 from .pairs import LEAST_PAIRS, camera_from_pairs
-from .refinement import HandPairs
 from .registration import Registration, confirmed, register
-
-# Nobody clicks better, as a share of the photo's longer side.
-_SUREST_CLICK = 0.001
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +20,7 @@ class Location:
     verified : bool
         Its camera was found and stood the test, or follows from pairs picked by hand.
     reason : {"pose", "homography", "hand"} or None
-    note : Message
+    note : str
         One line for a person.
     warnings : tuple of str
         What a person should do something about.
@@ -36,11 +31,6 @@ class Location:
     reason: str | None
     note: str
     warnings: tuple[str, ...] = ()
-
-    @property
-    def tested(self):
-        """Whether it was possible to tell that the photo shows the scan, or that it does not."""
-        return self.verified or self.registration.untestable is None
 
     @property
     def beyond_doubt(self):
@@ -107,23 +97,18 @@ def _known_from(anchor, location, scan, views, photo, step):
     again = confirmed(views, photo, _carried(location.registration.model, anchor.pose, scan.pose))
     if again.accepted:
         return _judged(scan, photo, again)
-    note = Message("shows {other}; too little of {scan} to take colors from", other=anchor.name, scan=scan.name)
-    return Location(again, False, None, note)
+    return Location(again, False, None, f"shows {anchor.name}; too little of {scan.name} to take colors from")
 
 
 def _judged(scan, photo, registration):
     """The location that was found without a person's help."""
-    said = registration.evidence.said
+    evidence = registration.evidence
     if registration.accepted:
-        return Location(registration, True, registration.model.kind, Message("verified: {evidence}", evidence=said))
-    if registration.untestable:
-        warning = "{scan}: {photo} cannot be tested ({reason}); pick four to six pairs by hand to place it"
-        note, reason = "cannot be tested: {reason}", registration.untestable
-    else:
-        warning = "{scan}: {photo} could not be verified ({reason}); pick four to six pairs by hand to place it"
-        note, reason = "not verified: {reason}", said
-    warning = Message(warning, scan=scan.name, photo=photo.name, reason=reason)
-    return Location(registration, False, None, Message(note, reason=reason), (warning,))
+        return Location(registration, True, registration.model.kind, f"verified: {evidence}")
+    warning = (
+        f"{scan.name}: {photo.name} could not be verified ({evidence}); pick four to six pairs by hand to place it"
+    )
+    return Location(registration, False, None, f"not verified: {evidence}", (warning,))
 
 
 def _by_hand(scan, views, hand, photo, step):
@@ -136,47 +121,27 @@ def _by_hand(scan, views, hand, photo, step):
     if count == 0:
         return nothing
     if count < LEAST_PAIRS:
-        warning = "{photo}: {count} pairs picked by hand do not place it, at least {least} do"
-        warning = Message(warning, photo=photo.name, count=count, least=LEAST_PAIRS)
+        warning = f"{photo.name}: {count} pairs picked by hand do not place it, at least {LEAST_PAIRS} do"
         return replace(nothing, warnings=(warning,))
     points = scan.points[hand.rows[mine], hand.cols[mine]]
     camera, error, left_out = camera_from_pairs(points, hand.photo_xy[mine], photo)
     pixels = error * max(photo.width, photo.height)
     if camera is None:
-        off = Message(" (off by {pixels} pixels)", pixels=round(pixels)) if np.isfinite(pixels) else ""
-        warning = "{photo}: no camera sees the {count} pairs picked by hand where they are{off}; check them"
-        warning = Message(warning, photo=photo.name, count=count, off=off)
+        off = f" (off by {pixels:.0f} pixels)" if np.isfinite(pixels) else ""
+        warning = f"{photo.name}: no camera sees the {count} pairs picked by hand where they are{off}; check them"
         return replace(nothing, warnings=(warning,))
     step(f"{photo.name}: refining the picked pairs")
-    kept = np.setdiff1d(np.arange(count), left_out)
-    picked = HandPairs(points[kept], hand.photo_xy[mine][kept], _doubt(pixels, len(kept), photo))
-    refined = confirmed(views, photo, camera, picked)
+    refined = confirmed(views, photo, camera)
     registration = refined if refined.accepted else Registration(camera, refined.evidence, "hand")
     slips, warnings = "", ()
     if len(left_out):
-        slip = int(np.flatnonzero(mine)[left_out[0]])
-        slips = Message(", pair {number} left out as wrong", number=slip + 1)
-        warning = (
-            "{photo}: pair {number} (row {row}, column {col}) does not fit the others; its color is kept, check it"
-        )
-        place = {"row": int(hand.rows[slip]), "col": int(hand.cols[slip])}
-        warnings = (Message(warning, photo=photo.name, number=slip + 1, **place),)
-    checked = refined.evidence.said if refined.accepted else Message("nothing but the pairs speaks for it")
-    note = Message(
-        "placed by {count} pairs picked by hand, off by {pixels} pixels{slips}; {evidence}",
-        count=count,
-        pixels=round(pixels),
-        slips=slips,
-        evidence=checked,
-    )
+        slip = np.flatnonzero(mine)[left_out[0]]
+        slips = f", pair {slip + 1} left out as wrong"
+        place = f"row {hand.rows[slip]}, column {hand.cols[slip]}"
+        warnings = (f"{photo.name}: pair {slip + 1} ({place}) does not fit the others; its color is kept, check it",)
+    checked = refined.evidence if refined.accepted else "nothing but the pairs speaks for it"
+    note = f"placed by {count} pairs picked by hand, off by {pixels:.0f} pixels{slips}; {checked}"
     return Location(registration, True, "hand", note, warnings)
-
-
-def _doubt(pixels, count, photo):
-    """How far picked pairs are off, from how far they are off their own camera, which seven numbers bend to them."""
-    free = 2 * count - 7
-    usual = pixels * np.sqrt(2 * count / free) if free >= 3 else 0.0
-    return max(usual, _SUREST_CLICK * max(photo.width, photo.height))
 
 
 def _carried(camera, pose_from, pose_to):
