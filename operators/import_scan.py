@@ -20,7 +20,7 @@ from .scene.notices import tell
 from .scene.provenance import record_import
 from .scene.scan_object import add_scan_object
 from .scene.texts import told
-from .scene.viewpoint import show_first
+from .scene.viewpoint import show_imported
 from .window.jobs import JobOperator
 
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
@@ -148,13 +148,15 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         return work
 
     def finish(self, context, result):
-        is_first = not any(obj.reflcolor.rows for obj in bpy.data.objects)
+        added = []
         for arrays, entry, inputs, warnings in result:
             obj = add_scan_object(context, arrays)
             record_import(obj, entry, inputs, warnings)
             tell(self, obj, told("Imported {name}", name=arrays.name), warnings)
-        if is_first:
-            show_first(context, count=len(result))
+            added.append(obj)
+        for obj in added:
+            obj.select_set(True)
+        show_imported(context, added)
 
     def _sensor_model(self):
         if self.sensor == "pinhole":

@@ -12,7 +12,7 @@ from .scene.image_sides import show_image
 from .scene.images import remember_pixels, write_image
 from .scene.provenance import record_photo
 from .scene.reports import reported
-from .scene.texts import told
+from .scene.texts import core_line, told
 
 
 class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
@@ -37,7 +37,10 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
     def execute(self, context):
         names = [file.name for file in self.files if file.name]
         for path in [Path(self.directory, name) for name in names] or [Path(self.filepath)]:
-            image = add_photo(context, path)
+            warnings = []
+            image = add_photo(context, path, warnings)
+            for warning in warnings:
+                self.report({"WARNING"}, core_line(warning))
             width, height = image.size
             said = told("Loaded {name}: {width} x {height} pixels", name=image.name, width=width, height=height)
             self.report({"INFO"}, said)
@@ -45,8 +48,10 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-def add_photo(context, path):
+def add_photo(context, path, warnings=None):
     """Load a photo and put it on the scene's list; return its image.
+
+    ``warnings``, a list, gets what a person should know of the file.
 
     Raises
     ------
@@ -54,7 +59,7 @@ def add_photo(context, path):
         If it cannot be read.
     """
     # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
-    pixels, entry = read_image(path), input_entry("photo", path)
+    pixels, entry = read_image(path, warnings), input_entry("photo", path)
     image = write_image(None, path.name, pixels, is_data=False)
     remember_pixels(image, pixels)
     record_photo(image, entry)

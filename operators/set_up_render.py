@@ -3,11 +3,11 @@
 import bpy
 
 from .scene import polls
-from .scene.render import add_camera_and_lights
+from .scene.render import look_through_camera, set_up_picture
 
 
 class REFLCOLOR_OT_set_up_render(bpy.types.Operator):
-    """Add a camera that shows the whole scan, and even light, to the scene, and look through the camera; F12 renders"""
+    """Have renders show the scans only, through a camera that has the whole scan in its picture; F12 renders"""
 
     bl_idname = "reflcolor.set_up_render"
     bl_label = "Set Up Render"
@@ -22,9 +22,9 @@ class REFLCOLOR_OT_set_up_render(bpy.types.Operator):
         if not len(obj.data.vertices):
             self.report({"WARNING"}, "The scan has no points to show")
             return {"CANCELLED"}
-        add_camera_and_lights(context, obj)
+        set_up_picture(context, obj, context.scene.reflcolor.picture_look)
         if context.area is not None and context.area.type == "VIEW_3D":
-            context.area.spaces.active.region_3d.view_perspective = "CAMERA"
+            look_through_camera(context, context.area)
         return {"FINISHED"}
 
 

@@ -45,6 +45,7 @@ class Colorize(Step):
         row = layout.row()
         row.scale_y = 1.5
         row.operator("reflcolor.colorize", icon="COLOR")
+        layout.row().prop(settings, "picture_look", expand=True)
         row = layout.row(align=True)
         row.operator("reflcolor.set_up_render", icon="OUTLINER_OB_CAMERA")
         row.operator("render.render", text="Render", icon="RENDER_STILL")

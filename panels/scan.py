@@ -19,6 +19,8 @@ class Scan(Step):
         rows, cols, returns = obj.reflcolor.rows, obj.reflcolor.cols, len(obj.data.vertices)
         said = label("{rows} x {cols} pixels, {returns} returns", rows=rows, cols=cols, returns=returns)
         column.label(text=said, translate=False)
+        if context.space_data.local_view is not None:
+            layout.operator("view3d.localview", text="Show Other Objects", icon="HIDE_OFF")
 
 
 classes = (in_view(Scan),)

@@ -2,6 +2,7 @@
 
 import math
 
+import cv2
 import numpy as np
 import pytest
 from small_scans import random_scan, scan_from_ranges
@@ -33,7 +34,7 @@ def test_the_camera_has_all_of_a_narrow_scan_in_its_picture(blender, tmp_path):
     seen, depth = seen_by_camera(blender, obj)
     camera = blender.context.scene.camera
     assert seen.min() >= 0 and seen.max() <= 1
-    assert np.ptp(seen, axis=0).max() > 0.9
+    assert np.ptp(seen, axis=0).min() > 0.9
     assert camera.data.clip_start < depth.min() and depth.max() < camera.data.clip_end
     assert (camera.location - obj.location).length < 0.6 * np.percentile(scan.range, 5)
 
@@ -61,8 +62,61 @@ def test_the_camera_looks_down_at_a_scan_all_around(blender, tmp_path):
 def test_what_was_set_up_before_makes_room(blender, tmp_path, scale_length):
     blender.context.scene.unit_settings.scale_length = scale_length
     import_scan(blender, tmp_path, random_scan())
+    blender.context.scene.reflcolor.picture_look = "LIT"
     for _ in range(2):
         blender.ops.reflcolor.set_up_render()
         added = [other.type for other in blender.data.objects if other.type != "MESH"]
-        assert sorted(added) == ["CAMERA", "LIGHT", "LIGHT", "LIGHT"]
+        assert sorted(added) == ["CAMERA", "LIGHT"]
     assert math.degrees(blender.context.scene.camera.data.angle) < 100
+
+
+@pytest.fixture
+def startup_scan(blender, tmp_path):
+    """Blender's startup file, cube, lamp and camera included, with a scan."""
+    blender.ops.wm.read_homefile(use_factory_startup=True)
+    import_scan(blender, tmp_path, random_scan())
+    return blender
+
+
+def test_pictures_show_the_scans_and_nothing_else(startup_scan):
+    scene = startup_scan.context.scene
+    before, world = set(scene.objects), scene.world
+    startup_scan.ops.reflcolor.set_up_render()
+    assert [obj.name for obj in scene.objects if not obj.hide_render and obj.type != "CAMERA"] == ["scan"]
+    assert before <= set(scene.objects)
+    assert scene.camera not in before
+    # A world that nothing uses would not be saved.
+    assert world.use_fake_user
+
+
+def test_what_a_person_left_out_of_renders_stays_so(startup_scan):
+    scan = startup_scan.context.active_object
+    scan.hide_render = True
+    startup_scan.ops.reflcolor.set_up_render()
+    assert scan.hide_render
+
+
+@pytest.mark.parametrize("look", ["UNLIT", "LIT"])
+def test_the_output_that_exporters_read_stays_as_it_is(startup_scan, look):
+    nodes = startup_scan.context.active_object.active_material.node_tree.nodes
+    startup_scan.context.scene.reflcolor.picture_look = look
+    for _ in range(2):
+        startup_scan.ops.reflcolor.set_up_render()
+    outputs = [node for node in nodes if node.type == "OUTPUT_MATERIAL"]
+    assert sorted(output.target for output in outputs) == ["ALL", "CYCLES", "EEVEE"]
+    (active,) = [output for output in outputs if output.is_active_output]
+    assert active.target == "ALL"
+    assert active.inputs["Surface"].links[0].from_node.type == "BSDF_PRINCIPLED"
+
+
+def test_colors_of_the_archive_look_are_exactly_those_of_the_scan(startup_scan, tmp_path):
+    startup_scan.ops.reflcolor.set_up_render()
+    scene, obj = startup_scan.context.scene, startup_scan.context.active_object
+    levels = np.full((len(obj.data.vertices), 4), [200, 120, 40, 255], np.float32) / 255
+    obj.data.color_attributes["Reflectance_Gray"].data.foreach_set("color_srgb", levels.ravel())
+    scene.render.resolution_percentage, scene.cycles.samples = 10, 1
+    scene.render.filepath = str(tmp_path / "picture.png")
+    startup_scan.ops.render.render(write_still=True)
+    picture = cv2.imread(scene.render.filepath)[..., ::-1].reshape(-1, 3)
+    values, counts = np.unique(picture, axis=0, return_counts=True)
+    assert [200, 120, 40] in values[np.argsort(counts)[-2:]].tolist()

@@ -69,7 +69,7 @@ def test_what_lies_behind_a_pane_of_glass_is_not_seen(room):
     np.testing.assert_allclose(image.panes.mean(axis=0), pane, atol=0.05)
     np.testing.assert_allclose(image.panes[:, 1], 5.0, atol=0.05)
     xy, depth = camera.project(image.points)
-    seen, through = (visible(camera, image, xy, depth, panes=panes) for panes in (image.panes, None))
+    seen, through = (visible(camera, image.valid, xy, depth, panes=panes) for panes in (image.panes, None))
     chosen = beyond[np.ix_(image.rows, image.cols)]
     assert through[chosen].mean() > 0.9
     assert seen[chosen].mean() < 0.05

@@ -50,7 +50,8 @@ class Renderer:
         for item, scan, rgb in zip(made, scans, colors, strict=True) if colors else ():
             objects.add_colors(item, objects.COLORIZED, rgb[scan.valid])
             objects.show_colors(item, objects.COLORIZED)
-        self._render.add_camera_and_lights(context, made[0])
+        self._render.set_up_picture(context, made[0], "LIT")
+        context.scene.render.resolution_x, context.scene.render.resolution_y = 1280, 800
         if view is not None:
             self._look(context.scene, *view)
         self._render.render(context, self._path)

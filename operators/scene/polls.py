@@ -15,7 +15,7 @@ def has_window(cls, context):
 
 
 def has_scan(cls, context):
-    """A scan's object is active."""
+    """There is a scan that is meant."""
     if scan_object(context) is None:
         cls.poll_message_set(tip("Import a scan, or select one, first"))
         return False
@@ -101,12 +101,15 @@ def not_colorable(obj):
 
 
 def scan_object(context):
-    """Return the active object if it is a scan, else None."""
-    return context.active_object if _is_scan(context.active_object) else None
+    """Return the active object if it is a scan, else the only scan there is; None where there is none, or several."""
+    if _is_scan(context.active_object):
+        return context.active_object
+    scans = [obj for obj in context.view_layer.objects if _is_scan(obj)]
+    return scans[0] if len(scans) == 1 else None
 
 
 def scan_objects(context):
-    """Return the active scan, and after it the others that are selected; none if the active object is no scan."""
+    """Return the scan that is meant, and after it the others that are selected; none if no scan is meant."""
     active = scan_object(context)
     if active is None:
         return []

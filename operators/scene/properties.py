@@ -14,6 +14,7 @@ from bpy.props import (
 
 from .editors import redraw_editors, select_only
 from .notices import ReflcolorNotice
+from .picture_material import LIT, UNLIT
 from .setting_properties import ColorizeSettings, MatchSettings
 
 
@@ -154,6 +155,14 @@ class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup
         description="Join every seed in the reflectance image with its point in the photo beside it; "
         "else only selected ones",
         update=lambda _settings, _context: redraw_editors(),
+    )
+    picture_look: EnumProperty(
+        name="Look",
+        description="How pictures of the scans look",
+        items=(
+            (UNLIT, "Archive", "Colors exactly as they are, without any light"),
+            (LIT, "Lit", "In even light, which shows the shape of surfaces"),
+        ),
     )
     active_photo: IntProperty(name="Active Photo", description="Photo that is selected in the list")
 

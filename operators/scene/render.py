@@ -1,50 +1,72 @@
-"""A plain picture of a scan's object: camera, light and render."""
+"""A picture of scans and of nothing else: camera, light and render."""
 
 import math
-from contextlib import contextmanager
 
 import bpy
 from mathutils import Vector
 
+from ...reflcolor_addon.view.framing import picture_size
+from .collections import PICTURE, own_collection
 from .nodes import node_tree_of
+from .picture_material import AMBIENT_SHARE, LIT, UNLIT, give_look
 from .viewpoint import view_of
 
-SIZE = (1280, 800)
-# Suns without shadows: a scan has holes and open backs, whose shadows would look like dirt. Each is the share of a
-# surface's own color that it gives when facing the light.
-_LIGHTS = (("Headlight", None, 0.55), ("Sky", (0.0, 0.0, 1.0), 0.35), ("Side", (-0.6, -0.5, 0.4), 0.25))
-# On objects: added for a picture.
-_ADDED = "reflcolor_for_render"
+# On objects: added for a picture; left out of pictures, which the person had not done.
+_ADDED, _LEFT_OUT = "reflcolor_for_render", "reflcolor_left_out"
+# Linear light: dark enough for white walls to stand out from, light enough for dark floors.
+_BACKGROUND = (0.045, 0.047, 0.05, 1.0)
+# From the left above the viewer.
+_SUN_FROM = (-0.4, 0.5, 1.0)
 
 
-def add_camera_and_lights(context, obj):
-    """Add a camera that frames a scan's object, and plain lights, to the scene; all is ready to render.
+def set_up_picture(context, obj, look=UNLIT):
+    """Have the scene's renders show its scans only, as a camera of their own sees one of them.
 
-    What was added before, for this or another object, makes room for it.
+    Nothing is deleted: what else is in the scene is left out of renders, camera and light are in a collection of their
+    own, and the world that was there is kept in the file. What was set up before makes room.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+        The scan to frame.
+    look : {UNLIT, LIT}
+        Colors exactly as they are, or in even light.
     """
     scene = context.scene
     for added in [other for other in scene.objects if _ADDED in other]:
         bpy.data.objects.remove(added)
-    view = view_of(obj, SIZE[0] / SIZE[1])
-
-    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    camera[_ADDED] = True
+    view = view_of(obj)
     toward = Vector(view.target - view.position)
+    camera = _add(context, "Laser Scan Camera", bpy.data.cameras.new("Laser Scan Camera"))
     camera.location = view.position
     camera.rotation_euler = toward.to_track_quat("-Z", "Y").to_euler()
     camera.data.angle = math.radians(view.fov_deg)
     camera.data.clip_start, camera.data.clip_end = view.clip
-    scene.collection.objects.link(camera)
     scene.camera = camera
-    for name, direction, share in _LIGHTS:
-        light = bpy.data.objects.new(name, bpy.data.lights.new(name, "SUN"))
-        light[_ADDED] = True
-        light.data.energy = math.pi * share
-        light.data.use_shadow = False
-        from_where = -toward if direction is None else Vector(direction)
-        light.rotation_euler = (-from_where).to_track_quat("-Z", "Y").to_euler()
-        scene.collection.objects.link(light)
+    if look == LIT:
+        # Without shadows: a scan has holes and open backs, whose shadows would look like dirt.
+        sun = _add(context, "Laser Scan Light", bpy.data.lights.new("Laser Scan Light", "SUN"))
+        sun.data.energy = math.pi * (1 - AMBIENT_SHARE)
+        sun.data.angle, sun.data.use_shadow = 0.0, False
+        sun.rotation_euler = (camera.rotation_euler.to_matrix() @ Vector(_SUN_FROM)).to_track_quat("Z", "Y").to_euler()
+    _leave_out_all_but_scans(scene)
+    for scan in (other for other in scene.objects if other.reflcolor.rows):
+        for material in filter(None, scan.data.materials):
+            give_look(material, look)
+    scene.render.resolution_x, scene.render.resolution_y = picture_size(view.aspect)
     _set_up_scene(scene)
+
+
+def look_through_camera(context, area):
+    """Have a 3D View look through the scene's camera, in Local View, too, where it has a camera of its own."""
+    space = area.spaces.active
+    space.camera = context.scene.camera
+    space.region_3d.view_perspective = "CAMERA"
+    if space.local_view is not None:
+        for obj in context.scene.objects:
+            if _ADDED in obj:
+                obj.local_view_set(space, True)
 
 
 def render(context, path):
@@ -52,52 +74,48 @@ def render(context, path):
     scene = context.scene
     kept, scene.render.filepath = scene.render.filepath, str(path)
     try:
-        with _seen_from_the_scanned_side(context):
-            bpy.ops.render.render(write_still=True)
+        bpy.ops.render.render(write_still=True)
     finally:
         scene.render.filepath = kept
 
 
+def _add(context, name, data):
+    obj = bpy.data.objects.new(name, data)
+    obj[_ADDED] = True
+    own_collection(context, PICTURE).objects.link(obj)
+    return obj
+
+
+def _leave_out_all_but_scans(scene):
+    for obj in scene.objects:
+        if not obj.reflcolor.rows and _ADDED not in obj and not obj.hide_render:
+            obj.hide_render = obj[_LEFT_OUT] = True
+
+
 def _set_up_scene(scene):
-    scene.render.resolution_x, scene.render.resolution_y = SIZE
     scene.render.resolution_percentage = 100
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
-    scene.cycles.samples = 16
+    scene.cycles.samples = 32
     scene.cycles.seed = 0
     scene.cycles.max_bounces = 0
     scene.cycles.transparent_max_bounces = 32
     scene.cycles.use_denoising = False
     # Colors as they are; Blender's default view would gray them.
     scene.view_settings.view_transform = "Standard"
-    world = bpy.data.worlds.new("Plain")
+    scene.view_settings.look = "None"
+    scene.view_settings.exposure, scene.view_settings.gamma = 0, 1
+    world = next((world for world in bpy.data.worlds if _ADDED in world), None)
+    if world is None:
+        world = bpy.data.worlds.new("Laser Scan Background")
+        world[_ADDED] = True
+    if scene.world is not None and scene.world != world:
+        # Blender does not save a world that nothing uses.
+        scene.world.use_fake_user = True
     scene.world = world
     background = next(node for node in node_tree_of(world).nodes if node.type == "BACKGROUND")
-    background.inputs["Color"].default_value = (0.8, 0.8, 0.8, 1.0)
+    background.inputs["Color"].default_value = _BACKGROUND
+    # Seen, but no light.
     world.cycles_visibility.diffuse = False
-
-
-@contextmanager
-def _seen_from_the_scanned_side(context):
-    """For one render, make faces transparent from behind, so that one looks into a scanned room."""
-    layer = context.view_layer
-    material = bpy.data.materials.new("Scanned Side")
-    nodes, links = node_tree_of(material).nodes, material.node_tree.links
-    nodes.clear()
-    color, diffuse, transparent = (
-        nodes.new(f"ShaderNode{kind}") for kind in ("VertexColor", "BsdfDiffuse", "BsdfTransparent")
-    )
-    geometry, mix, output = (nodes.new(f"ShaderNode{kind}") for kind in ("NewGeometry", "MixShader", "OutputMaterial"))
-    links.new(color.outputs["Color"], diffuse.inputs["Color"])
-    links.new(geometry.outputs["Backfacing"], mix.inputs[0])
-    links.new(diffuse.outputs[0], mix.inputs[1])
-    links.new(transparent.outputs[0], mix.inputs[2])
-    links.new(mix.outputs[0], output.inputs["Surface"])
-    layer.material_override = material
-    try:
-        yield
-    finally:
-        layer.material_override = None
-        bpy.data.materials.remove(material)

@@ -7,6 +7,7 @@ from mathutils import Matrix
 from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.scan.georeference import origin_shift, rigid_pose
 from ...reflcolor_addon.scan.scan import Scan
+from .collections import SCANS, own_collection
 from .images import write_image
 from .nodes import color_node, node_tree_of, show_in_material
 from .texts import told
@@ -59,7 +60,7 @@ def add_scan_object(context, arrays):
     mesh.materials.append(_material(arrays.name))
     show_colors(obj, GRAY)
 
-    context.collection.objects.link(obj)
+    own_collection(context, SCANS).objects.link(obj)
     for other in context.selected_objects:
         other.select_set(False)
     obj.select_set(True)

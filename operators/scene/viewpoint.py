@@ -1,4 +1,6 @@
-"""Looking at a scan from where the scanner saw it."""
+"""Looking at scans from where the scanner saw them."""
+
+from contextlib import contextmanager
 
 import bpy
 import numpy as np
@@ -8,35 +10,61 @@ from ...reflcolor_addon.view.framing import frame, frame_in_region, in_world
 from .scan_object import coordinates_of
 
 
-def view_of(obj, aspect):
-    """Return the framing View of the object of a scan for a picture of an aspect (width over height)."""
-    return frame(*_points_and_scanner(obj), aspect=aspect)
+def view_of(obj):
+    """Return the framing View of the object of a scan for a picture in the scan's own shape."""
+    return frame(*_points_and_scanners([obj]))
 
 
-def show_first(context, count):
-    """Turn the 3D Views of the window to the first scans of a file, of which the active object is one."""
+def show_imported(context, objects):
+    """Turn the 3D Views of the window to the objects of scans that were just imported, which are selected.
+
+    The first scans of a scene are shown alone, where there is anything else to be seen: the startup file's cube stands
+    where most scanners do.
+    """
     if bpy.app.background or context.window is None:
         return
+    others = [obj for obj in context.view_layer.objects if obj not in objects]
+    alone = not any(obj.reflcolor.rows for obj in others)
     for area in context.window.screen.areas:
-        if area.type != "VIEW_3D":
-            continue
-        if count == 1:
-            look_from_scanner(context, context.active_object, area)
-            continue
+        if area.type == "VIEW_3D":
+            look_from_scanner(context, objects, area)
+            if alone or area.spaces.active.local_view is not None:
+                show_scans_alone(context, area)
+
+
+def show_scans_alone(context, area):
+    """Have a 3D View show the scans of the scene and nothing else, in Blender's Local View; / brings the rest back."""
+    visible = [obj for obj in context.view_layer.objects if obj.visible_get()]
+    scans = [obj for obj in visible if obj.reflcolor.rows]
+    if area.spaces.active.local_view is None and 0 < len(scans) < len(visible):
         region = next(region for region in area.regions if region.type == "WINDOW")
-        with context.temp_override(area=area, region=region):
-            bpy.ops.view3d.view_all()
+        with context.temp_override(area=area, region=region), _selected(context, scans[0]):
+            bpy.ops.view3d.localview(frame_selected=False)
+    if area.spaces.active.local_view is not None:
+        for obj in scans:
+            obj.local_view_set(area.spaces.active, True)
 
 
-def look_from_scanner(context, obj, area):
-    """Turn a 3D View so that it shows the whole scan, from near the scanner."""
-    if not len(obj.data.vertices):
+@contextmanager
+def _selected(context, obj):
+    """Have an object selected, within the block."""
+    before = obj.select_get()
+    obj.select_set(True)
+    try:
+        yield
+    finally:
+        obj.select_set(before)
+
+
+def look_from_scanner(context, objects, area):
+    """Turn a 3D View so that it shows the whole of one or several scans, from near the scanner or from above."""
+    if not any(len(obj.data.vertices) for obj in objects):
         return
     space, region = area.spaces.active, next(region for region in area.regions if region.type == "WINDOW")
     sidebar = next(region for region in area.regions if region.type == "UI")
     covered = sidebar.width if space.show_region_ui and context.preferences.system.use_region_overlap else 0
     view = frame_in_region(
-        *_points_and_scanner(obj), size=(region.width, region.height), covered=covered, focal_mm=space.lens
+        *_points_and_scanners(objects), size=(region.width, region.height), covered=covered, focal_mm=space.lens
     )
     eye = space.region_3d
     eye.view_perspective = "PERSP"
@@ -45,6 +73,7 @@ def look_from_scanner(context, obj, area):
     eye.view_location = view.target
 
 
-def _points_and_scanner(obj):
-    """(N, 3) float64, the vertices of an object in the world, and (3,), its scanner's place."""
-    return in_world(coordinates_of(obj.data), obj.matrix_world), np.array(obj.matrix_world.translation)
+def _points_and_scanners(objects):
+    """(N, 3) float64, the vertices of objects in the world, and (K, 3), the places of their scanners."""
+    points = np.concatenate([in_world(coordinates_of(obj.data), obj.matrix_world) for obj in objects])
+    return points, np.array([obj.matrix_world.translation for obj in objects])

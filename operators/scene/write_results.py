@@ -9,7 +9,7 @@ from ...reflcolor_addon.scan.object_arrays import object_arrays
 from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
 from .provenance import record_provenance
-from .render import add_camera_and_lights, render
+from .render import render, set_up_picture
 from .scan_object import add_scan_object
 from .seed_list import append_seeds
 from .usd import write_usd
@@ -46,7 +46,7 @@ def write_results(jobs, paths, picture, progress):
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
     if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
         # All of a site's scans together would be looked at from far above what they stand around.
-        add_camera_and_lights(context, objects[0])
+        set_up_picture(context, objects[0])
     if picture is not None:
         steps.append((picture, lambda path: render(context, path)))
     for done, (path, write) in enumerate(steps):

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..scene.viewpoint import look_from_scanner
+from ..scene.viewpoint import look_from_scanner, show_scans_alone
 
 NAME = "Seed Picking"
 # The workspace that was there before, kept with the one that is laid out.
@@ -109,7 +109,8 @@ def _fill(number, object_name):
         if area.type == "IMAGE_EDITOR" and area.spaces.active.image is not None:
             _apply(number, area, bpy.ops.image.view_all, fit_view=True)
         elif area.type == "VIEW_3D" and obj is not None:
-            look_from_scanner(bpy.context, obj, area)
+            look_from_scanner(bpy.context, [obj], area)
+            show_scans_alone(bpy.context, area)
 
 
 def _show_tab(area):

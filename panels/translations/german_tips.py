@@ -4,9 +4,8 @@ _OPERATORS = {
     "Delete the selected seeds; where none is selected, nothing, lest the scan itself be deleted": (
         "Die ausgewählten Saatpunkte löschen; ist keiner ausgewählt, nichts, damit nicht der Scan gelöscht wird"
     ),
-    "Add a camera that shows the whole scan, and even light, to the scene, and look through the camera; F12 renders": (
-        "Eine Kamera, die den ganzen Scan zeigt, und gleichmäßiges Licht zur Szene hinzufügen und durch die Kamera "
-        "sehen; F12 rendert"
+    "Have renders show the scans only, through a camera that has the whole scan in its picture; F12 renders": (
+        "Gerenderte Bilder zeigen nur die Scans, durch eine Kamera, die den ganzen Scan im Bild hat; F12 rendert"
     ),
     "Let go of the picked color or, if there is none, leave the preview of Live Update": (
         "Die aufgenommene Farbe fallen lassen oder, wenn keine da ist, die Vorschau verlassen"
@@ -161,12 +160,14 @@ _SETTINGS = {
         "Nach den ähnlichsten Superpixeln, wie veröffentlicht; bei echten Scans oft falsch"
     ),
     "Cells of a block of the descriptor": "Zellen eines Blocks des Deskriptors",
+    "Colors exactly as they are, without any light": "Farben genau, wie sie sind, ohne jedes Licht",
     "Directions that the descriptor tells apart": "Richtungen, die der Deskriptor unterscheidet",
     "Every seed colors every pixel, as the paper has it": "Jeder Saatpunkt färbt jedes Pixel, wie veröffentlicht",
     "How fast a seed's influence falls with the geodesic distance; higher makes borders sharper": (
         "Wie schnell der Einfluss eines Saatpunkts mit der geodätischen Entfernung fällt; höher macht Grenzen schärfer"
     ),
     "How many of its nearest seeds color a pixel": ("Wie viele seiner nächsten Saatpunkte ein Pixel färben"),
+    "How pictures of the scans look": "Wie Bilder der Scans aussehen",
     "How seeds are found in photos": "Wie Saatpunkte in Fotos gefunden werden",
     "How square superpixels are; less lets them follow edges": (
         "Wie quadratisch Superpixel sind; weniger lässt sie Kanten folgen"
@@ -174,6 +175,7 @@ _SETTINGS = {
     "How strongly steps in range hold colors back; 0 looks at the reflectance alone (Yatziv)": (
         "Wie stark Sprünge der Entfernung Farben aufhalten; 0 sieht nur auf die Reflektanz (Yatziv)"
     ),
+    "In even light, which shows the shape of surfaces": "In gleichmäßigem Licht, das die Form der Flächen zeigt",
     "Logarithms of cone responses, decorrelated over natural images": (
         "Logarithmen der Zapfenantworten, dekorreliert über natürliche Bilder"
     ),

@@ -5,8 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ImageError, OutputError
+from ..messages import Message
 from ..srgb import linear_to_srgb8
 from .atomic import written_atomically
+from .color_profiles import embedded_profile
 from .exr import is_exr, read_exr_channels
 from .native_noise import quiet_on_failure
 
@@ -17,7 +19,7 @@ _PNG, _PNG_WITH_ALPHA = b"\x89PNG\r\n\x1a\n", (4, 6)
 _EXPECTED = "expected PNG, JPEG, TIFF, WebP, BMP or EXR"
 
 
-def read_image(path):
+def read_image(path, warnings=None):
     """Read a photo.
 
     Parameters
@@ -25,7 +27,10 @@ def read_image(path):
     path : path-like
         Of any name on any platform. Its EXIF orientation is honored; an alpha channel is dropped, but what it makes
         invisible in a PNG is black; gray becomes three equal channels, 16 bits are scaled to 8, and linear
-        floating-point colors (EXR, float TIFF) are sRGB encoded.
+        floating-point colors (EXR, float TIFF) are sRGB encoded. Colors in another space (Display P3, Adobe RGB) are
+        converted, if the file's ICC profile is one of a matrix and curves.
+    warnings : list, optional
+        Gets a `Message` where a profile cannot be followed, so that the colors are taken as sRGB.
 
     Returns
     -------
@@ -49,13 +54,23 @@ def read_image(path):
         alpha = _decoded(path, data, cv2.IMREAD_UNCHANGED)[..., -1]
         if alpha.shape == image.shape[:2]:
             image[alpha == 0] = 0
-    if image.dtype == np.uint8:
-        return image
     if image.dtype == np.uint16:
-        return ((np.arange(65536) * 255 + 32767) // 65535).astype(np.uint8)[image]
+        image = ((np.arange(65536) * 255 + 32767) // 65535).astype(np.uint8)[image]
+    if image.dtype == np.uint8:
+        return _in_srgb(image, data, path, warnings)
     if image.dtype.kind == "f":
         return _srgb_of_light(image)
     raise ImageError(f"{path.name}: its pixels are {image.dtype}, expected 8 or 16 bits or floating point")
+
+
+def _in_srgb(image, data, path, warnings):
+    profile = embedded_profile(data)
+    if profile is None:
+        return image
+    if not profile.known and warnings is not None:
+        text = "{file}: its color profile{name} is one of tables, which is not followed; its colors are taken as sRGB"
+        warnings.append(Message(text, file=path.name, name=f" ({profile.name})" if profile.name else ""))
+    return profile.to_srgb(image)
 
 
 def eight_bits(pixels):

@@ -1,36 +1,34 @@
 """Edge features that look alike in a reflectance image and in a photo, whatever the sign and the gain of an edge.
 
 Infrared reflectance is not the gray of a photo: a red letter on white may vanish, a dark leaf shines. What both have is
-where the edges run. A gradient's angle is doubled, so that a change of sign changes nothing, and its harmonics make a
-smooth histogram of orientations at every pixel (a HOG with neither cells nor bins); then each neighborhood is brought
-to the same contrast.
+where the edges run. A gradient's angle is doubled, so that a change of sign changes nothing; then each neighborhood is
+brought to the same contrast.
 """
 
 import numpy as np
 
-CHANNELS = 5
 _NEIGHBORHOOD, _REDUCED = 16.0, 4
 # Contrast below this share of the image's own is left weak instead of being raised to full strength: it is noise.
 _NOISE_SHARE = 0.3
 _FARTHER_THAN_ALL = 0.5
 
 
-def edge_features(image, seen, *, sigma=1.0, spread=1.0):
-    """Return the (H, W, 5) float32 edge features of a gray image; zero where not ``seen``.
-
-    Parameters
-    ----------
-    image : (H, W) float32
-        Any unit; what is not seen must be filled (see `filled`).
-    seen : (H, W) bool
-    sigma, spread : float
-        Pixels: smoothing before the gradient, and of the histograms.
-    """
+def gradient(image, sigma=1.0):
+    """Return what a gray image (H, W) float32 grows by to the right, and down, smoothed by ``sigma`` pixels before."""
     import cv2
 
     smooth = cv2.GaussianBlur(image, (0, 0), sigma)
-    inside = cv2.erode(seen.astype(np.uint8), np.ones((3, 3)), borderValue=1).astype(np.float32)
-    return _normalized(cv2.GaussianBlur(_harmonics(smooth, inside), (0, 0), spread), seen)
+    return cv2.Sobel(smooth, cv2.CV_32F, 1, 0), cv2.Sobel(smooth, cv2.CV_32F, 0, 1)
+
+
+def gradient_features(right, down, seen, *, spread=1.0):
+    """Return the (H, W, 3) float32 edge features of gradients (H, W) float32 each; zero where not ``seen``.
+
+    ``spread`` is the pixels by which they are smoothed.
+    """
+    import cv2
+
+    return _normalized(cv2.GaussianBlur(_harmonics(right, down), (0, 0), spread), seen)
 
 
 def scan_features(reflectance, range_m, valid, *, range_weight, sigma=1.0, spread=1.0):
@@ -45,36 +43,36 @@ def scan_features(reflectance, range_m, valid, *, range_weight, sigma=1.0, sprea
     range_weight : float
         How much a range edge counts beside a reflectance edge.
     sigma, spread : float
-        As in `edge_features`.
+        Pixels: smoothing before the gradient, and of the features.
 
     Returns
     -------
-    (H, W, 5) float32
+    (H, W, 3) float32
     """
     import cv2
 
     near = cv2.GaussianBlur(valid.astype(np.float32), (0, 0), 2 * sigma + 1) > 0.05
     inside = cv2.erode(valid.astype(np.uint8), np.ones((3, 3)), borderValue=1).astype(np.float32)
-    smooth = cv2.GaussianBlur(filled(reflectance, valid), (0, 0), sigma)
-    features = _normalized(cv2.GaussianBlur(_harmonics(smooth, inside), (0, 0), spread), near)
+    right, down = gradient(filled(reflectance, valid, reach=4 * sigma), sigma)
+    features = gradient_features(right * inside, down * inside, near, spread=spread)
     if range_weight > 0 and valid.any():
         # Without a return is most often sky: farther than anything, so that the skyline is an edge.
         logarithm = np.log(np.maximum(range_m, 1e-6))
         farthest = np.quantile(logarithm[valid], 0.98) + _FARTHER_THAN_ALL
-        depth = cv2.GaussianBlur(np.where(valid, logarithm, farthest).astype(np.float32), (0, 0), sigma)
-        jumps = cv2.GaussianBlur(_harmonics(depth, np.float32(1)), (0, 0), spread)
-        features += range_weight * _normalized(jumps, near)
+        jumps = gradient(np.where(valid, logarithm, farthest).astype(np.float32), sigma)
+        features += range_weight * gradient_features(*jumps, near, spread=spread)
     return features
 
 
-def filled(image, seen):
-    """Return the (H, W) float32 image with what is not seen filled smoothly from around."""
+def filled(image, seen, *, reach=None):
+    """Return the (H, W) float32 image with what is not seen filled smoothly from around, within ``reach`` pixels."""
     import cv2
 
     result = np.where(seen, image, 0).astype(np.float32)
     known, weight, sigma = seen.copy(), seen.astype(np.float32), 2.0
     source = result.copy()
-    while known.any() and not known.all() and sigma < 4 * max(image.shape):
+    farthest = 4 * max(image.shape) if reach is None else reach
+    while known.any() and not known.all() and sigma < farthest:
         # A wide blur of a large image is as good at a coarse one.
         step = max(1, int(sigma / 4))
         size = (max(1, image.shape[1] // step), max(1, image.shape[0] // step))
@@ -93,15 +91,12 @@ def filled(image, seen):
     return result
 
 
-def _harmonics(smooth, inside):
-    """(H, W, 5): strength, and strength times cosine and sine of two and of four times the gradient's angle."""
+def _harmonics(x, y):
+    """(H, W, 3): strength, and strength times cosine and sine of twice the gradient's angle."""
     import cv2
 
-    x = cv2.Sobel(smooth, cv2.CV_32F, 1, 0) * inside
-    y = cv2.Sobel(smooth, cv2.CV_32F, 0, 1) * inside
     strength = np.sqrt(x * x + y * y) + 1e-9
-    cos2, sin2 = (x * x - y * y) / strength, 2 * x * y / strength
-    return cv2.merge([strength, cos2, sin2, (cos2 * cos2 - sin2 * sin2) / strength, 2 * cos2 * sin2 / strength])
+    return cv2.merge([strength, (x * x - y * y) / strength, 2 * x * y / strength])
 
 
 def _normalized(features, seen):

@@ -37,6 +37,9 @@ class PhotoMatch:
     evidence : float
         What speaks for the best camera there is, as a share of what is needed: below 1 it is not verified, unless pairs
         picked by hand place it.
+    tested : bool
+        False where nothing can be told, neither that the photo shows the scan nor that it does not: the scan is too
+        coarse, or the photo is of one tone. The note says which.
     """
 
     name: str
@@ -45,6 +48,7 @@ class PhotoMatch:
     reason: str | None
     note: str
     evidence: float = 0.0
+    tested: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +149,8 @@ def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=N
     hand = [None if own is None else _picked(own) for own in _placed(hand, scans)]
     kept = _placed(kept, scans)
     progress(0.0, "Opening the photos")
-    opened = opened_photos(photos)
+    of_files = []
+    opened = opened_photos(photos, of_files)
     if not opened:
         raise SeedsError("no photo: give at least one")
 
@@ -164,13 +169,15 @@ def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=N
     progress(1.0, "Matched")
     gray = tuple(f"{photo.name}: is black and white, it gives no colors" for photo in opened if _is_gray(photo.rgb))
     return [
-        Matching(joined(picked, stays, matching.seeds), matching.photos, gray + matching.warnings)
+        Matching(joined(picked, stays, matching.seeds), matching.photos, (*of_files, *gray, *matching.warnings))
         for matching, picked, stays in zip(matchings, hand, kept, strict=True)
     ]
 
 
-def opened_photos(photos):
+def opened_photos(photos, warnings=None):
     """Return a `PhotoImage` for each photo, a path, an array, or a name and an array.
+
+    ``warnings``, a list, gets what a person should know of a file.
 
     Raises
     ------
@@ -188,7 +195,7 @@ def opened_photos(photos):
             if rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.dtype != np.uint8:
                 raise ImageError(f"{name}: expected (H, W, 3) uint8, found {rgb.shape} {rgb.dtype}")
         else:
-            name, rgb = Path(photo).name, read_image(photo)
+            name, rgb = Path(photo).name, read_image(photo, warnings)
         if min(rgb.shape[:2]) < _LEAST_SIDE:
             raise ImageError(
                 f"{name}: has {rgb.shape[1]} x {rgb.shape[0]} pixels, expected at least {_LEAST_SIDE} on each side"
@@ -237,7 +244,7 @@ def _is_gray(rgb):
 def _report(photo, location):
     model = location.registration.model if location.verified else None
     share = location.registration.evidence.share
-    return PhotoMatch(photo.name, location.verified, model, location.reason, location.note, share)
+    return PhotoMatch(photo.name, location.verified, model, location.reason, location.note, share, location.tested)
 
 
 def _as_published(scan, photos, settings, step):

@@ -47,15 +47,36 @@ class Camera:
 
     def sites(self, scan_image):
         """(h, w, 3): what `project` takes for the pixels of a `ScanImage`."""
-        return scan_image.points
+        return scan_image.surface
+
+    def turns(self, scan_image):
+        """(2, h, w, 3): what the next pixel to the right, and down, adds to a site."""
+        return scan_image.turns
 
     def project(self, points):
         """Return (..., 2) pixels from the photo's top left corner, NaN behind the camera, and (...) depth in metres."""
-        local = (points - self.center) @ self.rotation.T
-        depth = local[..., 2]
-        plane = local[..., :2] / np.where(depth > 1e-6, depth, np.nan)[..., None]
-        gain = 1 + self.distortion * np.minimum((plane**2).sum(axis=-1), _WIDEST_SQUARED)
-        return plane * (self.focal_px * gain)[..., None] + [self.width / 2, self.height / 2], depth
+        right, down, depth = np.moveaxis((points - self.center) @ self.rotation.T, -1, 0)
+        ahead = np.where(depth > 1e-6, depth, np.nan)
+        x, y = right / ahead, down / ahead
+        gain = self.focal_px * (1 + self.distortion * np.minimum(x * x + y * y, _WIDEST_SQUARED))
+        return np.stack([x * gain + self.width / 2, y * gain + self.height / 2], axis=-1), depth
+
+    def jacobian(self, points, turns):
+        """Return (..., 2, 2), [x or y, step]: what two steps, (2, ..., 3) metres, move a point in the photo."""
+        right, down, depth = np.moveaxis((points - self.center) @ self.rotation.T, -1, 0)
+        ahead = np.where(depth > 1e-6, depth, np.nan)
+        x, y = right / ahead, down / ahead
+        squared = x * x + y * y
+        gain = 1 + self.distortion * np.minimum(squared, _WIDEST_SQUARED)
+        bent = 2 * self.distortion * (squared < _WIDEST_SQUARED)
+        moved = np.empty((*depth.shape, 2, 2))
+        for step, turn in enumerate(turns):
+            across, along, away = np.moveaxis(turn @ self.rotation.T, -1, 0)
+            change_x, change_y = (across - x * away) / ahead, (along - y * away) / ahead
+            radial = bent * (x * change_x + y * change_y)
+            moved[..., 0, step] = self.focal_px * (change_x * gain + x * radial)
+            moved[..., 1, step] = self.focal_px * (change_y * gain + y * radial)
+        return moved
 
     def projections(self, candidates, points, scale):
         """Return (K, N, 2): where K candidates see N points; ``scale`` is the metres of a unit shift."""
@@ -105,12 +126,21 @@ class GridHomography:
         """(h, w, 2): what `project` takes for the pixels of a `ScanImage`."""
         return scan_image.grid_xy
 
+    def turns(self, scan_image):
+        """(2, h, w, 2): what the next pixel to the right, and down, adds to a site."""
+        return scan_image.grid_turns
+
     def project(self, grid_xy):
         """Return (..., 2) pixels from the photo's top left corner, NaN beyond the horizon, and a depth of ones."""
         mapped = np.concatenate([grid_xy, np.ones((*grid_xy.shape[:-1], 1))], axis=-1) @ self.matrix.T
         weight = mapped[..., 2]
         weight = np.where(weight * np.sign(self.matrix[2, 2] or 1) > 1e-9, weight, np.nan)
         return mapped[..., :2] / weight[..., None], np.ones(weight.shape)
+
+    def jacobian(self, grid_xy, turns):
+        """Return (..., 2, 2): what each of two steps, (2, ..., 2) pixels of the grid, moves a place in the photo."""
+        here = self.project(grid_xy)[0]
+        return np.stack([self.project(grid_xy + turn)[0] - here for turn in turns], axis=-1)
 
     def projections(self, candidates, grid_xy, scale):
         """Return (K, N, 2): where K candidates (shifts of the grid's corners) put N places of the grid."""
@@ -125,6 +155,12 @@ class GridHomography:
         shifted = corners + candidate.reshape(4, 2).astype(np.float32) * (0.01 * max(height, width))
         change = cv2.getPerspectiveTransform(corners, shifted)
         return GridHomography(self.matrix @ change, self.grid_shape, self.width, self.height)
+
+
+def within(model, xy):
+    """Return (...) bool: which places (..., 2) lie in the photo of a model; NaN does not."""
+    x, y = xy[..., 0], xy[..., 1]
+    return (x >= 0) & (y >= 0) & (x <= model.width) & (y <= model.height)
 
 
 def camera_axes(yaw_deg, pitch_deg, roll_deg):

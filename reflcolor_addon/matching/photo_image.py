@@ -4,9 +4,11 @@ from functools import cached_property
 
 import numpy as np
 
-from .edges import edge_features, filled
+from .edges import gradient, gradient_features
+from .models import within
 
-_LARGEST_SIDE = 2048
+# Longer sides, in pixels, of the images of a photo.
+_SIDES = tuple(2048 * 2 ** (-half / 2) for half in range(13))
 _LARGEST_COLOR_SIDE = 6000
 
 
@@ -37,62 +39,82 @@ class PhotoImage:
             size = (max(1, round(self.width / scale)), max(1, round(self.height / scale)))
             rgb = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
         self.rgb = rgb
+        self._made = {}
 
     @cached_property
-    def levels(self):
-        """Gray images, float32, each half the size of the one before, and how many pixels of the photo theirs are.
-
-        The first is the photo itself, or where it is larger than 2048 pixels what is left of it at that size: no scan
-        has more detail, and time goes with the pixels.
-        """
+    def gray(self):
+        """(h, w) float32, at most 2048 pixels a side: no scan has more detail, and time goes with the pixels."""
         import cv2
 
-        rgb, scale = self.rgb, max(1.0, max(self.width, self.height) / _LARGEST_SIDE)
-        if scale > 1:
-            size = (max(1, round(self.width / scale)), max(1, round(self.height / scale)))
-            rgb = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
-        levels = [(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.float32), scale)]
-        while min(levels[-1][0].shape) >= 32:
-            levels.append((cv2.pyrDown(levels[-1][0]), levels[-1][1] * 2))
-        return levels
+        return cv2.cvtColor(_sized(self.rgb, min(1.0, _SIDES[0] / max(self.rgb.shape[:2]))), cv2.COLOR_RGB2GRAY).astype(
+            np.float32
+        )
 
     def level(self, pixels):
-        """Return the gray image, and its scale, whose pixels are about as large as ``pixels`` pixels of the photo."""
-        return min(self.levels, key=lambda level: abs(np.log(level[1] / max(pixels, 1e-3))))
+        """Return the gray image (h, w) float32 whose pixels are about as large as ``pixels`` pixels of the photo, and
+        how large they are.
 
-    def sampled(self, xy, seen, pixels):
-        """Return the (h, w) float32 gray at places of the photo, and (h, w) bool where that is inside it.
+        There are images of the same few sizes of any photo: what is found must not depend on how many pixels a picture
+        was stored with. A photo of fewer pixels is enlarged.
+        """
+        side = min(_SIDES, key=lambda side: abs(np.log(max(self.width, self.height) / side / max(pixels, 1e-3))))
+        image = self.once(("level", side), lambda: _sized(self.gray, side / max(self.gray.shape)))
+        return image, max(self.width, self.height) / side
+
+    def once(self, key, make):
+        """Return what ``make`` made when this was first asked for."""
+        if key not in self._made:
+            self._made[key] = make()
+        return self._made[key]
+
+    def features(self, xy, jacobian, inside):
+        """Return the (h, w, 3) edge features of the photo at places of it.
+
+        The edges are those of the photo itself, turned as the scan's pixels see them. Nothing of the scan makes an edge
+        in them: no hole, and no jump of its range, where neighboring pixels look at different parts of the photo.
 
         Parameters
         ----------
         xy : (h, w, 2) float64
             Pixels from the photo's top left corner.
-        seen : (h, w) bool
-        pixels : float
-            How many pixels of the photo lie between neighboring places.
+        jacobian : (h, w, 2, 2) float64
+            What a pixel to the right, and down, moves a place: [x or y, step].
+        inside : (h, w) bool
+            Which places lie in the photo.
         """
         import cv2
 
+        area = np.abs(jacobian[..., 0, 0] * jacobian[..., 1, 1] - jacobian[..., 0, 1] * jacobian[..., 1, 0])[inside]
+        pixels = float(np.sqrt(np.median(area)))
         image, scale = self.level(pixels)
-        x, y = (np.where(seen, xy[..., axis] / scale - 0.5, -2).astype(np.float32) for axis in (0, 1))
-        seen = seen & (x >= 0) & (y >= 0) & (x <= image.shape[1] - 1) & (y <= image.shape[0] - 1)
-        return cv2.remap(image, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), seen
+        edges = self.once(("gradient", scale), lambda: cv2.merge(gradient(image)))
+        x, y = (np.where(inside, xy[..., axis] / scale - 0.5, -2).astype(np.float32) for axis in (0, 1))
+        own = cv2.remap(edges, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        own_x, own_y = own[..., 0] * inside, own[..., 1] * inside
+        step = np.where(inside[..., None, None], jacobian, 0).astype(np.float32) / np.float32(scale)
+        right, down = (own_x * step[..., 0, axis] + own_y * step[..., 1, axis] for axis in (0, 1))
+        return gradient_features(right, down, inside)
 
-    def features(self, xy, seen, pixels):
-        """Return the (h, w, 5) edge features of the photo as `sampled`, and where it is seen."""
-        image, seen = self.sampled(xy, seen, pixels)
-        return edge_features(filled(image, seen), seen), seen
+
+def _sized(image, factor):
+    import cv2
+
+    if factor == 1:
+        return image
+    size = tuple(max(1, round(side * factor)) for side in image.shape[1::-1])
+    return cv2.resize(image, size, interpolation=cv2.INTER_AREA if factor < 1 else cv2.INTER_CUBIC)
 
 
-def visible(model, image, xy, depth, tolerance=0.04, panes=None):
-    """Return (h, w) bool: which pixels of a `ScanImage` the photo really sees.
+def visible(model, valid, xy, depth, tolerance=0.04, panes=None):
+    """Return (h, w) bool: which pixels of a `ScanImage`, or of a part of one, the photo really sees.
 
     By a depth buffer of the scan's own points. What is hidden by something that the scanner did not see is not found.
 
     Parameters
     ----------
     model : Camera or GridHomography
-    image : ScanImage
+    valid : (h, w) bool
+        Of that image.
     xy, depth : (h, w, 2), (h, w)
         As ``model.project`` gave them for the pixels.
     tolerance : float
@@ -100,8 +122,7 @@ def visible(model, image, xy, depth, tolerance=0.04, panes=None):
     panes : (K, 3) float64, optional
         Points that hide what is behind them, too, metres, scanner frame.
     """
-    inside = image.valid & np.isfinite(xy).all(axis=-1) & (depth > 0)
-    inside &= (xy >= 0).all(axis=-1) & (np.nan_to_num(xy) <= [model.width, model.height]).all(axis=-1)
+    inside = valid & (depth > 0) & within(model, xy)
     if model.kind == "homography" or not inside.any():
         return inside
     nearest, place = depth_buffer(model, xy, depth, inside, panes)
@@ -138,8 +159,7 @@ def depth_buffer(model, xy, depth, inside, more=None):
     np.minimum.at(nearest, (row, column), depth[inside])
     if more is not None and len(more):
         xy_more, depth_more = model.project(more)
-        there = np.isfinite(xy_more).all(axis=-1) & (xy_more >= 0).all(axis=-1)
-        there &= (np.nan_to_num(xy_more) <= [model.width, model.height]).all(axis=-1)
+        there = within(model, xy_more)
         column_more, row_more = (xy_more[there] / cell).astype(int).T
         np.minimum.at(nearest, (row_more, column_more), depth_more[there])
     # Between its points, too, a surface hides what is behind; closing fills the gaps and leaves the outlines.
@@ -154,5 +174,5 @@ def spacing(xy, seen):
     both = seen[:, reach:] & seen[:, : seen.shape[1] - reach]
     if reach == 0 or not both.any():
         return 1.0
-    distance = np.linalg.norm((xy[:, reach:] - xy[:, : seen.shape[1] - reach])[both], axis=-1)
+    distance = np.hypot(*(xy[:, reach:][both] - xy[:, : seen.shape[1] - reach][both]).T)
     return float(max(np.median(distance) / reach, 0.01))

@@ -4,10 +4,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..messages import Message
 from ..seeds.seeds import Seeds
 from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .registration.location import located
 from .registration.registration import ScanViews
+from .scan_image import toned
 from .transfer.appearance import LEAST_CONFIDENCE, Appearance, described
 from .transfer.fallback import cautious_colors, mean_color
 from .transfer.several_photos import blended, gains
@@ -66,7 +68,7 @@ def verified(scans, photos, hand, settings, step):
 def _prepared(scan, settings, step):
     step(0.02, f"{scan.name}: superpixels")
     views = ScanViews(scan)
-    image = square_image(scan, views.tone("percentiles"))
+    image = square_image(scan, toned(scan, "percentiles"))
     return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), [], [], [])
 
 
@@ -78,13 +80,14 @@ def _shown(place, photo, index):
     view = seen_by(photo, location.registration.model, place.image)
     if view.usable.any():
         return view
-    place.locations[index] = replace(
-        location, verified=False, reason=None, note=f"{location.note}; so placed, it shows nothing of the scan"
-    )
-    help_ = (
-        "check the pairs, and add some far from the others" if location.by_hand else "pick four to six pairs by hand"
-    )
-    place.warnings.append(f"{place.scan.name}: {photo.name}, so placed, shows nothing of the scan; {help_}")
+    note = Message("{note}; so placed, it shows nothing of the scan", note=location.note)
+    place.locations[index] = replace(location, verified=False, reason=None, note=note)
+    warning = "{scan}: {photo}, so placed, shows nothing of the scan; pick four to six pairs by hand"
+    if location.by_hand:
+        warning = (
+            "{scan}: {photo}, so placed, shows nothing of the scan; check the pairs, and add some far from the others"
+        )
+    place.warnings.append(Message(warning, scan=place.scan.name, photo=photo.name))
     return None
 
 
@@ -163,8 +166,9 @@ def _learnt(places, seen, looks):
         return None
     descriptors = np.concatenate([look[own.segments] for _, own, look in known])
     rgb = np.concatenate([own.seeds.rgb for _, own, _ in known])
-    along = np.concatenate([own.seeds.cols + 1e6 * number for number, (_, own, _) in enumerate(known)])
-    return Appearance.learnt(descriptors, rgb, along)
+    # Scans lie apart.
+    places = [np.column_stack([own.seeds.cols, own.seeds.rows]) + 1e6 * k for k, (_, own, _) in enumerate(known)]
+    return Appearance.learnt(descriptors, rgb, np.concatenate(places))
 
 
 def _with_unseen(place, seen, look, appearance, photos, settings, step):
@@ -195,7 +199,8 @@ def _with_unseen(place, seen, look, appearance, photos, settings, step):
         reason=("appearance",) * int(sure.sum()),
     )
     if seen is None:
-        place.warnings.append(f"{place.scan.name}: no photo shows it; all its colors are guessed from the other scans")
+        warning = "{scan}: no photo shows it; all its colors are guessed from the other scans"
+        place.warnings.append(Message(warning, scan=place.scan.name))
         return likely
     return Seeds(
         rows=np.concatenate([seen.seeds.rows, likely.rows]),
@@ -219,9 +224,8 @@ def _cut_off(place, seeded, unseen):
 
 def _cautious(place, photos, settings, step):
     """Seeds where nothing was verified: the mean color of the photos, and more only where neighbors agree."""
-    place.warnings.append(
-        f"{place.scan.name}: no photo could be verified; colors are guessed from likeness, near the photos' mean color"
-    )
+    warning = "{scan}: no photo could be verified; colors are guessed from likeness, near the photos' mean color"
+    place.warnings.append(Message(warning, scan=place.scan.name))
     text = f"{place.scan.name}: comparing superpixels"
     step(0.96, text)
     own, others = described_scan(place.scan, place.image, place.superpixels, settings), []

@@ -139,7 +139,8 @@ def output_entry(option, path, report_path, cancelled=None):
 
 def photo_entry(photo):
     """Return what a report says of a PhotoMatch."""
-    return {"name": photo.name, "verified": photo.verified, "reason": photo.reason, "note": photo.note}
+    names = ("name", "verified", "tested", "reason", "note")
+    return {name: getattr(photo, name) for name in names}
 
 
 def seed_entries(seeds, given):

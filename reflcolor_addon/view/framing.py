@@ -25,17 +25,32 @@ _SAMPLE = 20_000
 _CLIP = (1e-3, 1e3)
 # Metres; a scan of one point has no size to go by.
 _CLOSEST = 0.1
+# Width over height of a picture in the scan's own shape is no more extreme than this.
+_SHAPES = 0.5, 2.4
+# Pixels of a picture, about.
+_PICTURE_PIXELS = 1_300_000
 # Blender's 3D View has a sensor of twice the usual width.
 _REGION_SENSOR_MM = 72.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class View:
-    """A camera: ``position`` and ``target`` (3,), world metres; ``fov_deg``, the field of view of the wider side."""
+    """A camera.
+
+    Parameters
+    ----------
+    position, target : (3,) float64
+        World metres.
+    fov_deg : float
+        Field of view of the picture's wider side.
+    aspect : float
+        Width of the picture over its height.
+    """
 
     position: np.ndarray
     target: np.ndarray
     fov_deg: float
+    aspect: float
 
     @property
     def distance(self):
@@ -54,27 +69,34 @@ def in_world(coordinates, matrix):
     return coordinates.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-def frame(points, scanner, *, aspect):
+def picture_size(aspect):
+    """Return (width, height) in pixels, even numbers, of a picture of this width over height."""
+    height = np.sqrt(_PICTURE_PIXELS / aspect)
+    return tuple(2 * round(side / 2) for side in (height * aspect, height))
+
+
+def frame(points, scanners, *, aspect=None):
     """Return a view that shows all of a scan's surface from the side that was scanned.
 
     A scan of a window of directions is seen from about the scanner's place, so that near and far have the room that
-    they have in the scan; from farther back where it is wider than a picture can be. A scan all around is seen
-    obliquely from above, as one looks into a doll's house.
+    they have in the scan; from farther back where it is wider than a picture can be. A scan all around, or scans from
+    several places, are seen obliquely from above, as one looks into a doll's house.
 
     Parameters
     ----------
     points : (N, 3) float64
         Points with a return, world metres, Z up.
-    scanner : (3,) float64
-        The scanner's place.
-    aspect : float
-        Width of the picture over its height.
+    scanners : (3,) or (K, 3) float64
+        Where the scanner stood: once, or for each of several scans.
+    aspect : float, optional
+        Width of the picture over its height; by default that of the scan as it is seen, from 0.5 to 2.4.
 
     Returns
     -------
     View
     """
-    points = _sample(points)
+    points, scanners = _sample(points), np.reshape(scanners, (-1, 3))
+    scanner = scanners.mean(axis=0)
     rays = points - scanner
     distance = np.maximum(np.linalg.norm(rays, axis=1), 1e-9)
     mean = (rays / distance[:, None]).mean(axis=0)
@@ -82,7 +104,7 @@ def frame(points, scanner, *, aspect):
     if not heading.any():
         heading = np.array([0.0, 1.0, 0.0])
     right = np.array([heading[1], -heading[0], 0.0])
-    if _covered_deg(rays) > _WIDE_DEG:
+    if len(scanners) > 1 or _covered_deg(rays) > _WIDE_DEG:
         return _from_outside(points, heading, right, aspect)
     near = np.percentile(distance, 5)
     beside = scanner + near * _ASIDE * (right + [0, 0, 1])
@@ -93,12 +115,12 @@ def frame(points, scanner, *, aspect):
     return view
 
 
-def frame_in_region(points, scanner, *, size, covered, focal_mm):
+def frame_in_region(points, scanners, *, size, covered, focal_mm):
     """Return a view that shows a scan as `frame` does, but through the lens of a region of Blender's 3D View.
 
     Parameters
     ----------
-    points, scanner
+    points, scanners
         As in `frame`.
     size : (width, height) of int
         Pixels of the region.
@@ -115,7 +137,7 @@ def frame_in_region(points, scanner, *, size, covered, focal_mm):
     points = _sample(points)
     width, height = (max(1, length) for length in size)
     free = max(1, width - covered)
-    view = frame(points, scanner, aspect=free / height)
+    view = frame(points, scanners, aspect=free / height)
     # The focal length is that of the wider side.
     pixel = _REGION_SENSOR_MM / focal_mm / max(width, height)
     forward = (view.target - view.position) / view.distance
@@ -135,7 +157,7 @@ def frame_in_region(points, scanner, *, size, covered, focal_mm):
     position = view.position - back * forward + aside @ across
     distance = max(float(np.median(depth) + back), _CLOSEST)
     fov_deg = np.degrees(2 * np.arctan(_REGION_SENSOR_MM / focal_mm / 2))
-    return View(position=position, target=position + forward * distance, fov_deg=float(fov_deg))
+    return View(position=position, target=position + forward * distance, fov_deg=float(fov_deg), aspect=width / height)
 
 
 def _from_outside(points, heading, right, aspect):
@@ -163,16 +185,18 @@ def _looking_from(position, points, aspect):
         depth = offsets @ forward
         in_front = depth > 1e-3 * max(1e-9, depth.max())
         if in_front.mean() < 1 - _STRAY / 100:
-            return View(position=position, target=position + forward, fov_deg=180.0), 180.0
+            return View(position=position, target=position + forward, fov_deg=180.0, aspect=aspect or 1.0), 180.0
         seen = np.stack([offsets[in_front] @ right, offsets[in_front] @ up], axis=1) / depth[in_front, None]
         low, high = np.percentile(seen, (_STRAY, 100 - _STRAY), axis=0)
         aim = forward + right * (low[0] + high[0]) / 2 + up * (low[1] + high[1]) / 2
         forward = aim / np.linalg.norm(aim)
-    half_width, half_height = (high - low) / 2 * _MARGIN
+    half_width, half_height = np.maximum((high - low) / 2 * _MARGIN, 1e-6)
+    aspect = aspect or float(np.clip(half_width / half_height, *_SHAPES))
     widest = max(half_width, half_height * aspect) if aspect >= 1 else max(half_width / aspect, half_height)
     distance = max(float(np.median(depth)), _CLOSEST)
     fov_deg, taken_deg = (2 * np.degrees(np.arctan(max(half, 0.01))) for half in (widest, max(half_width, half_height)))
-    return View(position=position, target=position + forward * distance, fov_deg=float(fov_deg)), taken_deg
+    target = position + forward * distance
+    return View(position=position, target=target, fov_deg=float(fov_deg), aspect=aspect), taken_deg
 
 
 def _across(forward):

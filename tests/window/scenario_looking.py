@@ -3,20 +3,31 @@
 import bpy
 
 
-def scenario_the_first_scan_is_in_view(window):
-    eye = window.area("VIEW_3D").spaces.active.region_3d
-    before = eye.view_matrix.copy()
+def scenario_what_is_imported_is_in_view_and_nothing_before_it(window):
+    eye = lambda: window.area("VIEW_3D").spaces.active.region_3d  # noqa: E731
+    view = lambda: eye().view_matrix.copy()  # noqa: E731
+    alone = lambda obj: obj.local_view_get(window.area("VIEW_3D").spaces.active)  # noqa: E731
+    before, objects = view(), set(bpy.data.objects.keys())
     window.call("reflcolor.import_scan", filepath=window.example("cones.scan.json"))
     yield 0.3
-    eye = window.area("VIEW_3D").spaces.active.region_3d
-    window.check(eye.view_matrix != before, "the view turned to the scan")
+    first = view()
+    window.check(first != before, "the view turned to the scan")
+    window.check(objects < set(bpy.data.objects.keys()), "what was there is still there")
+    window.check(alone(window.scan) and not alone(bpy.data.objects["Cube"]), "the scan alone is shown")
     yield from window.show_sidebar()
     yield from window.screenshot("first")
-    before = eye.view_matrix.copy()
+    eye().view_distance *= 5
+    yield 0.1
     window.call("reflcolor.import_scan", filepath=window.example("cones.scan.json"))
     yield 0.3
-    eye = window.area("VIEW_3D").spaces.active.region_3d
-    window.equal(eye.view_matrix, before, "the view once a second scan is imported")
+    eye().update()
+    window.check(eye().view_distance < 1.2 * first.translation.length + 10, "a second scan is in view")
+    window.check(alone(window.scan), "and shown beside the first")
+    yield from window.screenshot("second")
+    yield from window.undo()
+    yield from window.undo()
+    window.check(window.area("VIEW_3D").spaces.active.local_view is None, "without scans all the rest is shown again")
+    window.equal(set(bpy.data.objects.keys()), objects, "objects after undo")
 
 
 def scenario_maps_with_a_legend(window):

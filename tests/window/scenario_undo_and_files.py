@@ -62,14 +62,9 @@ def scenario_rendered_picture_shows_the_colors(window):
     window.call("reflcolor.load_photo", filepath=window.example("photo.jpg"))
     window.call("reflcolor.load_seeds", filepath=window.example("cones.seeds.json"))
     window.call("reflcolor.colorize")
-    render, scene = window.scene.render, window.scene
-    render.engine, render.resolution_x, render.resolution_y = "CYCLES", 480, 320
-    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.device = 4, False, "CPU"
-    # Stand where the scanner stood: its Y axis looks ahead, a camera looks along -Z.
-    camera = scene.camera
-    camera.matrix_world = window.scan.matrix_world.copy()
-    camera.rotation_euler.x += 1.5
-    camera.data.angle = 1.1
+    window.call("reflcolor.set_up_render")
+    render = window.scene.render
+    render.resolution_percentage, window.scene.cycles.samples = 30, 4
     render.filepath = window.output("cones.png")
     window.invoke("render.render", write_still=True)
     yield from window.until(lambda: Path(render.filepath).is_file(), 60, "the picture is written")

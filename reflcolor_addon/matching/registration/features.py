@@ -5,17 +5,17 @@ import numpy as np
 from ..models import GridHomography
 
 _RATIO = 0.9
-_SIDE = 900
+_SIDE = 640
 # Photos are mostly held upright: then most matches that turn further are wrong.
 _UPRIGHT_DEG = 30
 _LEAST_MATCHES = 12
-_MOST_POINTS = 3000
-VARIANTS = ("gradient", "gray", "contrast", "inverted")
+_MOST_POINTS = 2000
+VARIANTS = ("gradient", "contrast", "inverted")
 """Which image of the reflectance is tried in turn; the photo's is the same, but never inverted."""
 
 
-def homographies(grid_image, scan_shape, photo, step=lambda: None):
-    """Yield `GridHomography` candidates from matches between the scan's image and a photo, variant by variant.
+class ScanPoints:
+    """The local features of a scan's image, made when first asked for: they are the same for all photos.
 
     Parameters
     ----------
@@ -23,32 +23,56 @@ def homographies(grid_image, scan_shape, photo, step=lambda: None):
         The scan's reflectance as an image of 0..255 that covers its whole grid, whatever its pixels' size.
     scan_shape : (rows, columns)
         Of the scan's grid.
-    photo : PhotoImage
-    step : callable
-        Called before each variant; may raise to end the work.
     """
-    import cv2
 
-    own = _sized(grid_image)
-    other = _sized(photo.levels[0][0])
-    to_grid = np.diag([scan_shape[1] / own.shape[1], scan_shape[0] / own.shape[0], 1.0])
-    to_photo = np.diag([photo.width / other.shape[1], photo.height / other.shape[0], 1.0])
-    for variant in VARIANTS:
-        step()
-        points = _matches(_variant(own, variant), _variant(other, "contrast" if variant == "inverted" else variant))
-        if points is None:
-            continue
-        own_at, other_at, turn = points
-        for chosen in (turn <= _UPRIGHT_DEG, np.ones(len(turn), bool)):
-            if chosen.sum() < _LEAST_MATCHES:
+    def __init__(self, grid_image, scan_shape):
+        self._image, self._scan_shape = _sized(grid_image), scan_shape
+        self._found = {}
+
+    def homographies(self, photo, step=lambda: None):
+        """Yield `GridHomography` candidates from matches between the scan's image and a photo, variant by variant.
+
+        Parameters
+        ----------
+        photo : PhotoImage
+        step : callable
+            Called before each variant; may raise to end the work.
+        """
+        import cv2
+
+        shape, rows_columns = self._image.shape, self._scan_shape
+        for variant in VARIANTS:
+            step()
+            if variant not in self._found:
+                self._found[variant] = _described(self._image, variant)
+            own, (other, other_shape) = self._found[variant], _of_photo(photo, variant)
+            to_grid = np.diag([rows_columns[1] / shape[1], rows_columns[0] / shape[0], 1.0])
+            to_photo = np.diag([photo.width / other_shape[1], photo.height / other_shape[0], 1.0])
+            points = _matches(own, other)
+            if points is None:
                 continue
-            cv2.setRNGSeed(0)
-            found, _ = cv2.findHomography(
-                own_at[chosen], other_at[chosen], cv2.USAC_MAGSAC, 4.0, maxIters=20_000, confidence=0.999
-            )
-            if found is not None and _sane(found, own.shape):
-                matrix = to_photo @ found @ np.linalg.inv(to_grid)
-                yield GridHomography(matrix / matrix[2, 2], scan_shape, photo.width, photo.height)
+            own_at, other_at, turn = points
+            for chosen in (turn <= _UPRIGHT_DEG, np.ones(len(turn), bool)):
+                if chosen.sum() < _LEAST_MATCHES:
+                    continue
+                cv2.setRNGSeed(0)
+                found, _ = cv2.findHomography(
+                    own_at[chosen], other_at[chosen], cv2.USAC_MAGSAC, 4.0, maxIters=20_000, confidence=0.999
+                )
+                if found is not None and _sane(found, shape):
+                    matrix = to_photo @ found @ np.linalg.inv(to_grid)
+                    yield GridHomography(matrix / matrix[2, 2], rows_columns, photo.width, photo.height)
+
+
+def _of_photo(photo, variant):
+    """A photo's features of a variant, and the shape of the image that they are counted in."""
+    variant = "contrast" if variant == "inverted" else variant
+
+    def described():
+        image = _sized(photo.gray)
+        return _described(image, variant), image.shape
+
+    return photo.once(("features", variant), described)
 
 
 def straight(scan_shape, photo):
@@ -79,23 +103,29 @@ def _variant(image, name):
     return 255 - image if name == "inverted" else image
 
 
+def _described(image, variant):
+    """Where local features are, (N, 2) float32, what they look like, and how they are turned; None where too few."""
+    import cv2
+
+    detector = cv2.SIFT_create(_MOST_POINTS, contrastThreshold=0.02)
+    points, descriptors = detector.detectAndCompute(_variant(image, variant), None)
+    if descriptors is None or len(points) < _LEAST_MATCHES:
+        return None
+    at = np.array([point.pt for point in points], np.float32)
+    # The detector's threads leave the points in no fixed order.
+    order = np.lexsort((*descriptors.T[:4], at[:, 0], at[:, 1]))
+    angle = np.array([point.angle for point in points])[order]
+    return at[order] + 0.5, descriptors[order], angle
+
+
 def _matches(own, other):
     """Points that may belong together, (N, 2) float32 of each image, and by how many degrees (N,) one is turned against
     the other, in a fixed order; None where too few."""
     import cv2
 
-    detector = cv2.SIFT_create(_MOST_POINTS, contrastThreshold=0.02)
-    described = []
-    for image in (own, other):
-        points, descriptors = detector.detectAndCompute(image, None)
-        if descriptors is None or len(points) < _LEAST_MATCHES:
-            return None
-        at = np.array([point.pt for point in points], np.float32)
-        # The detector's threads leave the points in no fixed order.
-        order = np.lexsort((*descriptors.T[:4], at[:, 0], at[:, 1]))
-        angle = np.array([point.angle for point in points])[order]
-        described.append((at[order] + 0.5, descriptors[order], angle))
-    (own_at, own_described, own_angle), (other_at, other_described, other_angle) = described
+    if own is None or other is None:
+        return None
+    (own_at, own_described, own_angle), (other_at, other_described, other_angle) = own, other
     pairs = cv2.BFMatcher(cv2.NORM_L2).knnMatch(own_described, other_described, k=2)
     pairs = [pair[0] for pair in pairs if len(pair) == 2 and pair[0].distance < _RATIO * pair[1].distance]
     if len(pairs) < _LEAST_MATCHES:

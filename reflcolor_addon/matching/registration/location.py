@@ -8,8 +8,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...messages import Message
 from .pairs import LEAST_PAIRS, camera_from_pairs
+from .refinement import HandPairs
 from .registration import Registration, confirmed, register
+
+# Nobody clicks better, as a share of the photo's longer side.
+_SUREST_CLICK = 0.001
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +25,7 @@ class Location:
     verified : bool
         Its camera was found and stood the test, or follows from pairs picked by hand.
     reason : {"pose", "homography", "hand"} or None
-    note : str
+    note : Message
         One line for a person.
     warnings : tuple of str
         What a person should do something about.
@@ -31,6 +36,11 @@ class Location:
     reason: str | None
     note: str
     warnings: tuple[str, ...] = ()
+
+    @property
+    def tested(self):
+        """Whether it was possible to tell that the photo shows the scan, or that it does not."""
+        return self.verified or self.registration.untestable is None
 
     @property
     def beyond_doubt(self):
@@ -97,18 +107,23 @@ def _known_from(anchor, location, scan, views, photo, step):
     again = confirmed(views, photo, _carried(location.registration.model, anchor.pose, scan.pose))
     if again.accepted:
         return _judged(scan, photo, again)
-    return Location(again, False, None, f"shows {anchor.name}; too little of {scan.name} to take colors from")
+    note = Message("shows {other}; too little of {scan} to take colors from", other=anchor.name, scan=scan.name)
+    return Location(again, False, None, note)
 
 
 def _judged(scan, photo, registration):
     """The location that was found without a person's help."""
-    evidence = registration.evidence
+    said = registration.evidence.said
     if registration.accepted:
-        return Location(registration, True, registration.model.kind, f"verified: {evidence}")
-    warning = (
-        f"{scan.name}: {photo.name} could not be verified ({evidence}); pick four to six pairs by hand to place it"
-    )
-    return Location(registration, False, None, f"not verified: {evidence}", (warning,))
+        return Location(registration, True, registration.model.kind, Message("verified: {evidence}", evidence=said))
+    if registration.untestable:
+        warning = "{scan}: {photo} cannot be tested ({reason}); pick four to six pairs by hand to place it"
+        note, reason = "cannot be tested: {reason}", registration.untestable
+    else:
+        warning = "{scan}: {photo} could not be verified ({reason}); pick four to six pairs by hand to place it"
+        note, reason = "not verified: {reason}", said
+    warning = Message(warning, scan=scan.name, photo=photo.name, reason=reason)
+    return Location(registration, False, None, Message(note, reason=reason), (warning,))
 
 
 def _by_hand(scan, views, hand, photo, step):
@@ -121,27 +136,47 @@ def _by_hand(scan, views, hand, photo, step):
     if count == 0:
         return nothing
     if count < LEAST_PAIRS:
-        warning = f"{photo.name}: {count} pairs picked by hand do not place it, at least {LEAST_PAIRS} do"
+        warning = "{photo}: {count} pairs picked by hand do not place it, at least {least} do"
+        warning = Message(warning, photo=photo.name, count=count, least=LEAST_PAIRS)
         return replace(nothing, warnings=(warning,))
     points = scan.points[hand.rows[mine], hand.cols[mine]]
     camera, error, left_out = camera_from_pairs(points, hand.photo_xy[mine], photo)
     pixels = error * max(photo.width, photo.height)
     if camera is None:
-        off = f" (off by {pixels:.0f} pixels)" if np.isfinite(pixels) else ""
-        warning = f"{photo.name}: no camera sees the {count} pairs picked by hand where they are{off}; check them"
+        off = Message(" (off by {pixels} pixels)", pixels=round(pixels)) if np.isfinite(pixels) else ""
+        warning = "{photo}: no camera sees the {count} pairs picked by hand where they are{off}; check them"
+        warning = Message(warning, photo=photo.name, count=count, off=off)
         return replace(nothing, warnings=(warning,))
     step(f"{photo.name}: refining the picked pairs")
-    refined = confirmed(views, photo, camera)
+    kept = np.setdiff1d(np.arange(count), left_out)
+    picked = HandPairs(points[kept], hand.photo_xy[mine][kept], _doubt(pixels, len(kept), photo))
+    refined = confirmed(views, photo, camera, picked)
     registration = refined if refined.accepted else Registration(camera, refined.evidence, "hand")
     slips, warnings = "", ()
     if len(left_out):
-        slip = np.flatnonzero(mine)[left_out[0]]
-        slips = f", pair {slip + 1} left out as wrong"
-        place = f"row {hand.rows[slip]}, column {hand.cols[slip]}"
-        warnings = (f"{photo.name}: pair {slip + 1} ({place}) does not fit the others; its color is kept, check it",)
-    checked = refined.evidence if refined.accepted else "nothing but the pairs speaks for it"
-    note = f"placed by {count} pairs picked by hand, off by {pixels:.0f} pixels{slips}; {checked}"
+        slip = int(np.flatnonzero(mine)[left_out[0]])
+        slips = Message(", pair {number} left out as wrong", number=slip + 1)
+        warning = (
+            "{photo}: pair {number} (row {row}, column {col}) does not fit the others; its color is kept, check it"
+        )
+        place = {"row": int(hand.rows[slip]), "col": int(hand.cols[slip])}
+        warnings = (Message(warning, photo=photo.name, number=slip + 1, **place),)
+    checked = refined.evidence.said if refined.accepted else Message("nothing but the pairs speaks for it")
+    note = Message(
+        "placed by {count} pairs picked by hand, off by {pixels} pixels{slips}; {evidence}",
+        count=count,
+        pixels=round(pixels),
+        slips=slips,
+        evidence=checked,
+    )
     return Location(registration, True, "hand", note, warnings)
+
+
+def _doubt(pixels, count, photo):
+    """How far picked pairs are off, from how far they are off their own camera, which seven numbers bend to them."""
+    free = 2 * count - 7
+    usual = pixels * np.sqrt(2 * count / free) if free >= 3 else 0.0
+    return max(usual, _SUREST_CLICK * max(photo.width, photo.height))
 
 
 def _carried(camera, pose_from, pose_to):

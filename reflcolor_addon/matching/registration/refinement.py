@@ -5,7 +5,12 @@ whose shifts collect the highest sum wins. That is robust where nine of ten tile
 the surfaces are there, a candidate costs a look-up per tile.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
+
+PENALTY = 0.004
+"""Per squared unit, so that what the photo does not tell stays as it is."""
 
 _OUTSIDE = -0.5
 _CANDIDATES = 300
@@ -13,9 +18,37 @@ _GENERATIONS = 14
 _NEAR_TOP = 3.0
 # Holds what the tiles do not tell, against their pixels: a unit of change is a pixel's fiftieth.
 _HOLD = 0.02
+# Pixels by which the top of a tile's surface is off; overlapping tiles are off together.
+_TOP_OFF = 1.5
 
 
-def fitted(surfaces, model, free, *, blur, spread, penalty, rng):
+@dataclass(frozen=True, eq=False)
+class HandPairs:
+    """Pairs picked by hand, which hold a camera beside the tiles.
+
+    points : (K, 3) float64
+        Metres, scanner frame.
+    xy : (K, 2) float64
+        Pixels from the photo's top left corner.
+    sigma : float
+        How far they are off, in pixels of the photo.
+    """
+
+    points: np.ndarray
+    xy: np.ndarray
+    sigma: float
+
+    def off(self, model):
+        """Return how far the camera is off at the pairs, in their own deviations (root mean square)."""
+        return float(np.sqrt(self.doubt(model, np.zeros((1, len(model.ALL))), 1.0)[0] / len(self.xy)))
+
+    def doubt(self, model, candidates, scale):
+        """Return (K,) half the squared deviations, summed over the pairs, of candidates."""
+        away = model.projections(candidates, self.points, scale) - self.xy
+        return 0.5 * (np.nan_to_num(away / self.sigma, nan=1e3) ** 2).sum(axis=(1, 2))
+
+
+def fitted(surfaces, model, free, *, blur, spread, rng, pairs=None):
     """Return the model near ``model`` that collects the highest mean score, and that score.
 
     Parameters
@@ -28,9 +61,9 @@ def fitted(surfaces, model, free, *, blur, spread, penalty, rng):
         Pixels by which the surfaces are smoothed, so that the way to the top is found.
     spread : float
         How far around candidates are sought, in the model's units.
-    penalty : float
-        Per squared unit, so that what the photo does not tell stays as it is.
     rng : numpy.random.Generator
+    pairs : HandPairs, optional
+        They count as the tiles do: a tile's score is taken as the logarithm of how likely its place is.
     """
     import cv2
 
@@ -45,7 +78,10 @@ def fitted(surfaces, model, free, *, blur, spread, penalty, rng):
     def value(candidates):
         shifted = model.projections(candidates, surfaces.sites, surfaces.scale) - surfaces.places
         shift = np.einsum("nij,knj->kni", surfaces.inverse, np.nan_to_num(shifted, nan=1e6))
-        return _looked_up(scores, shift).mean(axis=1) - penalty * (candidates**2).sum(axis=1)
+        worth = looked_up(scores, shift).mean(axis=1) - PENALTY * (candidates**2).sum(axis=1)
+        if pairs is not None:
+            worth -= pairs.doubt(model, candidates, surfaces.scale) / len(scores)
+        return worth
 
     parents = np.zeros((1, count))
     spread_now = spread
@@ -60,7 +96,7 @@ def fitted(surfaces, model, free, *, blur, spread, penalty, rng):
     return model.moved(parents[0], surfaces.scale), float(values[best[0]])
 
 
-def tightened(surfaces, model, free):
+def tightened(surfaces, model, free, pairs=None):
     """Return the model fitted by least squares to the tiles that lie nearly where it puts them, or the same one.
 
     Only its ``free`` numbers change. What `fitted` leaves, a pixel or so, is taken away: the tops of the tiles'
@@ -84,7 +120,11 @@ def tightened(surfaces, model, free):
     def off(values):
         places = model.projections(candidate(values)[None], sites, surfaces.scale)[0]
         pixels = np.einsum("nij,nj->ni", surfaces.inverse[near], np.nan_to_num(places - targets, nan=1e3))
-        return np.concatenate([pixels.ravel(), _HOLD * np.sqrt(len(sites)) * values])
+        held = [pixels.ravel(), _HOLD * np.sqrt(len(sites)) * values]
+        if pairs is not None:
+            picked = model.projections(candidate(values)[None], pairs.points, surfaces.scale)[0] - pairs.xy
+            held.append(_TOP_OFF / pairs.sigma * np.nan_to_num(picked, nan=1e3).ravel())
+        return np.concatenate(held)
 
     solved = least_squares(off, np.zeros(len(free)), loss="soft_l1", f_scale=0.7, max_nfev=60)
     return model.moved(candidate(solved.x), surfaces.scale)
@@ -109,8 +149,8 @@ def _tops(scores):
     return shift - window // 2
 
 
-def _looked_up(scores, shift):
-    """(K, N): the scores at (K, N, 2) shifts (right, down), bilinearly."""
+def looked_up(scores, shift):
+    """Return the (K, N) scores at (K, N, 2) shifts (right, down), bilinearly."""
     radius = scores.shape[1] // 2
     place = shift + radius
     inside = ((place >= 0) & (place <= 2 * radius)).all(axis=-1)

@@ -1,43 +1,62 @@
 """Finding the model of one photo: candidates from features and from the search, refined, and judged."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from ..scan_image import TONES, ScanImage, pixel_steps, toned
+from ...messages import Message
+from ..grid_angles import closed
+from ..scan_image import ScanImage, pixel_steps, toned
 from . import features
 from .refinement import fitted, tightened
 from .search import Search, map_step
 from .tiles import Tiles, surfaces
-from .verification import NO_EVIDENCE, RADIUS, TILE, Evidence, evidence, judged, known_before
+from .verification import (
+    LEAST_PARTS,
+    NO_EVIDENCE,
+    RADIUS,
+    TILE,
+    Evidence,
+    beyond_chance,
+    evidence,
+    judged,
+    known_before,
+)
 
 # Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
 # Pixels, tile, radius, blur and spread from guess to guess: a direction from the scanner is found nearly exactly, and
 # weak evidence shows on fine levels only; a place aside is found roughly.
-_FROM_SCANNER = ([(0.6, TILE, 8, 2.0, 0.5)],)
+_FROM_SCANNER = ([(1.0, 32, 8, 2.0, 0.5)], [(0.6, TILE, 8, 2.0, 0.5)])
 _FROM_ASIDE = ([(*_COARSE, 10, 1.5, 1.2)], [(*_MIDDLE, 10, 1.0, 0.8)])
 # From this multiple of the needed evidence on, nothing better is looked for.
 _CONVINCING = 2.0
 _GUESSES = 14
 _TRIED = 5
-_PENALTY = 0.004
 _ROUNDS, _PROMISING = 2, 0.2
 # A guess is refined with all there is only if its tiles tell something, a second only if it is nearly as good.
 _TELLING, _NEARLY = 1.0, 0.6
 # Of a homography whose tiles are in place no oftener than by chance nothing is hoped for.
 _LEAST_DEVIATIONS = 1.5
 _LEAST_CONTRAST = 8
+# A refined camera fits picked pairs as long as it is no farther off at them than by this factor.
+_FITTING = 1.3
 _LEAST_PIXELS = 400
 
 
 @dataclass(frozen=True, eq=False)
 class Registration:
-    """A photo's model, the evidence for it, and where it came from."""
+    """A photo's model, the evidence for it, and where it came from.
+
+    untestable : str or None
+        Why nothing can be told of the photo, neither that it shows the scan nor that it does not.
+    """
 
     model: object
     evidence: Evidence
     found_by: str
+    untestable: str | None = None
 
     @property
     def accepted(self):
@@ -49,14 +68,20 @@ class Registration:
         """Whether nothing better need be looked for."""
         return self.accepted and self.evidence.rank >= _CONVINCING
 
+    def beyond_chance(self, views, photo):
+        """Return it with what is needed to stand out from chance, which is tried only where it counts."""
+        if not self.accepted:
+            return self
+        return replace(self, evidence=beyond_chance(self.evidence, views.image(_FINE[0]), photo, self.model))
+
     def better_than(self, other):
         """Whether more speaks for it than for another one."""
         return self.model is not None and (other.model is None or self.evidence.rank > other.evidence.rank)
 
     @classmethod
-    def nothing(cls, found_by="nothing"):
+    def nothing(cls, found_by="nothing", untestable=None):
         """What there is before anything was found."""
-        return cls(None, NO_EVIDENCE, found_by)
+        return cls(None, NO_EVIDENCE, found_by, untestable)
 
 
 class ScanViews:
@@ -64,27 +89,48 @@ class ScanViews:
 
     def __init__(self, scan):
         self.scan = scan
+        self.closed = closed(scan)
         self.step_deg = map_step(scan)
         self._made = {}
 
-    @property
-    def enough(self):
-        """Whether there is anything to match: enough returns, and not all in one place."""
+    @cached_property
+    def untestable(self):
+        """Why no photo can be tested on the scan; None where photos can."""
         points = self.scan.points[self.scan.valid]
-        return len(points) >= _LEAST_PIXELS and bool(np.ptp(points, axis=0).max() > 0)
+        if len(points) < _LEAST_PIXELS:
+            return Message(
+                "the scan has {count} returns, at least {least} are needed", count=len(points), least=_LEAST_PIXELS
+            )
+        if np.ptp(points, axis=0).max() == 0:
+            return Message("all returns of the scan are in one place")
+        parts = len(self.tiles(*_FINE).corners)
+        if parts < LEAST_PARTS:
+            return Message(
+                "the scan has {count} parts to compare, at least {least} are needed", count=parts, least=LEAST_PARTS
+            )
+        return None
 
-    def tone(self, tone):
-        """The toned reflectance, see `scan_image.toned`."""
-        return self._once(("tone", tone), lambda: toned(self.scan, tone))
+    @cached_property
+    def ranks(self):
+        """The reflectance as an image, see `scan_image.toned`."""
+        return toned(self.closed, "ranks")
 
-    def image(self, tone, share):
+    @cached_property
+    def described(self):
+        """What matching features needs of the scan: a list of `features.Points` of its images."""
+        images = [self.ranks]
+        vertical, horizontal = pixel_steps(self.scan)
+        if not 0.8 < vertical / horizontal < 1.25:
+            images.append(self.image(0.0).reflectance)
+        return [features.ScanPoints(image, self.scan.shape) for image in images]
+
+    def image(self, share):
         """The `ScanImage` whose pixels are ``share`` of the search's."""
-        step = self.step_deg * share
-        return self._once(("image", tone, share), lambda: ScanImage(self.scan, self.tone(tone), step))
+        return self._once(("image", share), lambda: ScanImage(self.closed, self.ranks, self.step_deg * share))
 
-    def tiles(self, tone, share, size):
+    def tiles(self, share, size):
         """Tiles on that image."""
-        return self._once(("tiles", share, size), lambda: Tiles.of(self.image(tone, share), size))
+        return self._once(("tiles", share, size), lambda: Tiles.of(self.image(share), size))
 
     def _once(self, key, make):
         if key not in self._made:
@@ -107,9 +153,12 @@ def register(views, photo, *, step=lambda text: None):
     Registration
         The best there is, accepted or not.
     """
+    untestable = views.untestable
+    if np.ptp(photo.gray) < _LEAST_CONTRAST:
+        untestable = Message("the photo is of one tone")
+    if untestable:
+        return Registration.nothing(untestable=untestable)
     best = Registration.nothing()
-    if np.ptp(photo.levels[0][0]) < _LEAST_CONTRAST or not views.enough:
-        return best
     search = Search(views, photo)
 
     def features_step():
@@ -121,66 +170,62 @@ def register(views, photo, *, step=lambda text: None):
     def aside_step():
         step(f"{photo.name}: searching viewpoints")
 
-    def from_scanner(tone):
-        return _tried(views, photo, tone, search.from_scanner(tone, search_step), False, step)
-
     attempts = (
-        (_CONVINCING, lambda: _by_features(views, photo, "ranks", features_step)),
-        (_CONVINCING, lambda: from_scanner("ranks")),
-        (1.0, lambda: _tried(views, photo, "ranks", search.from_aside("ranks", aside_step), True, step)),
-        (1.0, lambda: from_scanner("percentiles")),
+        lambda: _by_features(views, photo, features_step),
+        lambda: _tried(views, photo, search.from_scanner(search_step), False, step),
+        lambda: _tried(views, photo, search.from_aside(aside_step), True, step),
     )
-    for enough, attempt in attempts:
+    for attempt in attempts:
         found = attempt()
         if found.better_than(best):
             best = found
-        if best.accepted and best.evidence.rank >= enough:
+        if best.beyond_doubt:
             break
-    return best
+    return best.beyond_chance(views, photo)
 
 
-def confirmed(views, photo, model):
+def confirmed(views, photo, model, pairs=None):
     """Return the `Registration` of a model that is known roughly, refined and judged.
 
-    Nothing was searched, so that hardly a wrong model can stand out by chance: the least evidence will do.
+    Nothing was searched, so that hardly a wrong model can stand out by chance: the least evidence will do. With
+    `HandPairs` only a camera that still fits them is taken.
     """
     rng = np.random.default_rng(0)
     best = Registration.nothing("known")
-    for tone in TONES:
-        near, _ = refined(views, photo, model, tone, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng)
-        for start in (model, near):
-            if start is None:
-                continue
-            candidate, proof = finely(views, photo, start, tone, rng)
-            found = Registration(candidate, known_before(proof, views.image(tone, _FINE[0])), "known")
-            if found.better_than(best):
-                best = found
-        if best.accepted:
-            break
-    return best
+    near, _ = refined(views, photo, model, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng, pairs=pairs)
+    for start in (model, near):
+        if start is None:
+            continue
+        candidate, proof = finely(views, photo, start, rng, pairs=pairs)
+        if pairs is not None and candidate is not None and pairs.off(candidate) > _FITTING * max(pairs.off(model), 1):
+            continue
+        found = Registration(candidate, known_before(proof), "known")
+        if found.better_than(best):
+            best = found
+    return best.beyond_chance(views, photo)
 
 
-def refined(views, photo, model, tone, levels, *, free, rng):
+def refined(views, photo, model, levels, *, free, rng, pairs=None):
     """Return a model fitted level by level, and its `Evidence` on the last one."""
-    model = _led(views, photo, model, tone, levels, free, rng)
+    model = _led(views, photo, model, levels, free, rng, pairs)
     if model is None:
         return None, NO_EVIDENCE
     share, size = levels[-1][:2]
-    found = surfaces(views.image(tone, share), views.tiles(tone, share, size), photo, model, RADIUS)
+    found = surfaces(views.image(share), views.tiles(share, size), photo, model, RADIUS)
     return model, NO_EVIDENCE if found is None else judged(found)
 
 
-def _led(views, photo, model, tone, levels, free, rng):
+def _led(views, photo, model, levels, free, rng, pairs=None):
     """A model fitted level by level; None where the photo shows too little of the scan."""
     for share, size, radius, blur, spread in levels:
-        found = surfaces(views.image(tone, share), views.tiles(tone, share, size), photo, model, radius)
+        found = surfaces(views.image(share), views.tiles(share, size), photo, model, radius)
         if found is None:
             return None
-        model, _ = fitted(found, model, free, blur=blur, spread=spread, penalty=_PENALTY, rng=rng)
+        model, _ = fitted(found, model, free, blur=blur, spread=spread, rng=rng, pairs=pairs)
     return model
 
 
-def finely(views, photo, model, tone, rng, *, turned_only=False):
+def finely(views, photo, model, rng, *, turned_only=False, pairs=None):
     """Return a camera or homography that is nearly right, fitted with all it has, and its `Evidence`.
 
     With ``turned_only`` a camera stays where it is: where that is right, nothing is as sure.
@@ -192,40 +237,35 @@ def finely(views, photo, model, tone, rng, *, turned_only=False):
     else:
         stages = [(model.POSE, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)]), (model.ALL, [(*_FINE, 6, 0.5, 0.2)])]
     for free, levels in stages:
-        model = _led(views, photo, model, tone, levels, free, rng)
+        model = _led(views, photo, model, levels, free, rng, pairs)
         if model is None:
             return None, NO_EVIDENCE
-    image, tiles = views.image(tone, _FINE[0]), views.tiles(tone, *_FINE)
+    image, tiles = views.image(_FINE[0]), views.tiles(*_FINE)
     for _ in range(2):
         found = surfaces(image, tiles, photo, model, RADIUS)
         if found is None:
             return None, NO_EVIDENCE
-        model = tightened(found, model, model.TURNED if turned_only else model.ALL)
+        model = tightened(found, model, model.TURNED if turned_only else model.ALL, pairs)
     return model, evidence(image, photo, model)
 
 
-def _by_features(views, photo, tone, step):
+def _by_features(views, photo, step):
     """The best homography of the scan's grid: the straight one, or one from matching features."""
     rng = np.random.default_rng(0)
     best = Registration.nothing("features")
-    scan = views.scan
-    images = [views.tone(tone)]
-    vertical, horizontal = pixel_steps(scan)
-    if not 0.8 < vertical / horizontal < 1.25:
-        images.append(views.image(tone, 0.0).reflectance)
 
     def candidates():
-        yield features.straight(scan.shape, photo)
-        for image in images:
-            yield from features.homographies(image, scan.shape, photo, step)
+        yield features.straight(views.scan.shape, photo)
+        for points in views.described:
+            yield from points.homographies(photo, step)
 
     step()
     for model in candidates():
         step()
-        rough = surfaces(views.image(tone, _MIDDLE[0]), views.tiles(tone, *_MIDDLE), photo, model, RADIUS)
+        rough = surfaces(views.image(_MIDDLE[0]), views.tiles(*_MIDDLE), photo, model, RADIUS)
         if rough is None or judged(rough).deviations < _LEAST_DEVIATIONS:
             continue
-        found = Registration(*finely(views, photo, model, tone, rng), "features")
+        found = Registration(*finely(views, photo, model, rng), "features")
         if found.better_than(best):
             best = found
         if best.beyond_doubt:
@@ -233,7 +273,7 @@ def _by_features(views, photo, tone, step):
     return best
 
 
-def _tried(views, photo, tone, guesses, aside, step):
+def _tried(views, photo, guesses, aside, step):
     """The best camera from guesses, of which the better ones go on to the finer levels."""
     rng = np.random.default_rng(0)
     promising = [(guess.camera(photo), NO_EVIDENCE) for guess in guesses[:_GUESSES]]
@@ -242,16 +282,17 @@ def _tried(views, photo, tone, guesses, aside, step):
         for model, _ in promising:
             step(f"{photo.name}: trying directions")
             free = model.POSE if aside else model.ROTATION
-            tried.append(refined(views, photo, model, tone, levels, free=free, rng=rng))
+            tried.append(refined(views, photo, model, levels, free=free, rng=rng))
         tried = [pair for pair in tried if pair[0] is not None]
-        promising = sorted(tried, key=lambda pair: -pair[1].rank)[:_TRIED]
+        # Large tiles of coarse pixels seldom have but one best place: their strength is all that tells.
+        promising = sorted(tried, key=lambda pair: -pair[1].strength)[:_TRIED]
     best = Registration.nothing("search")
     for start, promise in promising[:2]:
         if promise.strength < max(_TELLING, _NEARLY * promising[0][1].strength) or best.evidence.rank >= _CONVINCING:
             break
         for turned_only in (False,) if aside else (True, False):
             step(f"{photo.name}: refining")
-            found = Registration(*finely(views, photo, start, tone, rng, turned_only=turned_only), "search")
+            found = Registration(*finely(views, photo, start, rng, turned_only=turned_only), "search")
             if found.better_than(best):
                 best = found
     # A camera far from its guess needs several rounds: what it sees changes while it moves.
@@ -259,7 +300,7 @@ def _tried(views, photo, tone, guesses, aside, step):
         if best.evidence.rank < _PROMISING:
             break
         step(f"{photo.name}: refining")
-        model, proof = finely(views, photo, best.model, tone, rng)
+        model, proof = finely(views, photo, best.model, rng)
         if proof.rank <= 1.05 * best.evidence.rank:
             break
         best = Registration(model, proof, "search")

@@ -8,11 +8,11 @@ from .sphere_map import PhotoMaps, SphereMap
 _FOCALS = (0.5, 0.6, 0.72, 0.866, 1.04, 1.25, 1.5, 1.8, 2.2)
 """Focal lengths that are tried, in lengths of the photo's longer side: fields of view of 90 to 26 degrees."""
 _PITCHES = (-18.0, 0.0, 18.0)
-_ASIDE_FOCALS = (0.55, 0.66, 0.8, 0.96, 1.15, 1.4, 1.7)
+_ASIDE_FOCALS = (0.56, 0.72, 0.93, 1.2, 1.55)
 _ASIDE_PITCHES = (0.0, -15.0)
 
 # Places around what a scan sees: degrees to the side, and distances in those of the scanner.
-_TURNS_DEG = (8, -8, 16, -16, 24, -24, 32, -32, 40, -40, 48, -48, 56, -56)
+_TURNS_DEG = (12, -12, 24, -24, 36, -36, 50, -50)
 _DISTANCES = (0.8, 1.0, 1.25)
 # Places around a scanner that sees all around: distances in the median one of what is seen, and how many of each.
 _RINGS = ((0.25, 6), (0.5, 9), (0.8, 12))
@@ -22,13 +22,15 @@ _COARSER = 2
 _MOST_PIXELS = 250
 _SHARPENED, _LOOKED_AT = 5, 14
 _REACH_DEG = 6.0
+# What a photo shows of a scan is hardly wider, in degrees: a scan that is has no larger pixels.
+_VIEW_DEG = 72
 
 
 def map_step(scan):
     """Return the size in degrees of the pixels that a scan is searched with."""
     vertical, horizontal = pixel_steps(scan)
     extent = max(scan.shape[0] * vertical, scan.shape[1] * horizontal)
-    return float(np.clip(extent / 200, max(vertical, horizontal), 0.6 if extent > 120 else 2.0))
+    return float(max(min(extent, _VIEW_DEG) / 200, min(vertical, horizontal)))
 
 
 def viewing_distance(scan):
@@ -71,42 +73,40 @@ class Search:
         self._views, self._photo = views, photo
         self._photo_maps = {}
 
-    def from_scanner(self, tone, step=lambda: None):
+    def from_scanner(self, step=lambda: None):
         """Return `Guess`es of a photo taken from the scanner's place, best first.
 
         Parameters
         ----------
-        tone : str
-            See `scan_image.toned`.
         step : callable
             Called now and then; may raise to end the work.
         """
-        guesses = _unlike_ones(self._everywhere(tone, [(0.0, 0.0, 0.0)], 1, _FOCALS, _PITCHES, 3, step))
+        guesses = _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], 1, _FOCALS, _PITCHES, 3, step))
         tried = []
         for guess in guesses[:_SHARPENED]:
             step()
             focals = [guess.focal * factor for factor in (0.92, 1.0, 1.09)]
-            tried += self._near(tone, guess, focals, [-4.0, 0.0, 4.0], count=2)
+            tried += self._near(guess, focals, [-4.0, 0.0, 4.0], count=2)
         return _unlike_ones([*tried, *guesses])
 
-    def from_aside(self, tone, step=lambda: None):
+    def from_aside(self, step=lambda: None):
         """Return `Guess`es of a photo taken from beside the scanner; see `from_scanner`."""
         places = viewpoints(self._views.scan)
-        guesses = self._everywhere(tone, places, _COARSER, _ASIDE_FOCALS, _ASIDE_PITCHES, 2, step)
+        guesses = self._everywhere(places, _COARSER, _ASIDE_FOCALS, _ASIDE_PITCHES, 2, step)
         looked_at = []
         for guess in _unlike_ones(guesses)[:_LOOKED_AT]:
             step()
-            looked_at += self._near(tone, guess, [guess.focal * factor for factor in (0.93, 1.0, 1.07)], [0.0])
+            looked_at += self._near(guess, [guess.focal * factor for factor in (0.93, 1.0, 1.07)], [0.0])
         return _unlike_ones(looked_at)
 
-    def _everywhere(self, tone, places, coarser, focals, pitches, count, step):
+    def _everywhere(self, places, coarser, focals, pitches, count, step):
         """The best guesses from each place for each focal length and pitch."""
         guesses, spheres = [], {}
         for focal in focals:
             maps = self._maps(focal, coarser)
             if maps.step_deg not in spheres:
                 step()
-                spheres = {maps.step_deg: [self._sphere(tone, place, maps.step_deg) for place in places]}
+                spheres = {maps.step_deg: [self._sphere(place, maps.step_deg) for place in places]}
             step()
             for pitch in pitches:
                 for sphere in spheres[maps.step_deg]:
@@ -121,11 +121,11 @@ class Search:
             self._photo_maps[coarser] = PhotoMaps(self._photo, self._views.step_deg * coarser)
         return self._photo_maps[coarser]
 
-    def _sphere(self, tone, center, step_deg, window=None):
-        image = self._views.image(tone, 0.5)
+    def _sphere(self, center, step_deg, window=None):
+        image = self._views.image(0.5)
         return SphereMap(image.points[image.valid], image.reflectance[image.valid], center, step_deg, window)
 
-    def _near(self, tone, guess, focals, rolls, count=1):
+    def _near(self, guess, focals, rolls, count=1):
         """Guesses from the same place in nearly the same direction."""
         # The pitch of the map need be right only as far as it bends the map: then many guesses share one.
         pitch = float(np.clip(round(guess.pitch_deg / 6) * 6, -60, 60))
@@ -138,7 +138,7 @@ class Search:
         top = patch.top + guess.pitch_deg - pitch
         left = guess.yaw_deg + patch.left
         window = (left - _REACH_DEG, left + width + _REACH_DEG, top - height - _REACH_DEG, top + _REACH_DEG)
-        sphere = self._sphere(tone, guess.center, maps.step_deg, window)
+        sphere = self._sphere(guess.center, maps.step_deg, window)
         found = []
         for key in keys:
             found += sphere.peaks(maps, key, count, (_REACH_DEG, _REACH_DEG))

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..edges import edge_features, filled, scan_features
-from ..models import Camera, camera_axes
+from ..edges import scan_features
+from ..models import Camera, camera_axes, within
 
 # A skyline or an edge of a thing is seen from afar, so range counts for more here than in the tiles.
 _RANGE_WEIGHT = 0.7
@@ -86,7 +86,9 @@ class SphereMap:
             margin = min(shape[1], int(_CUT_MARGIN_DEG / step_deg))
             reflectance, range_m, valid = (np.hstack([a, a[:, :margin]]) for a in (reflectance, range_m, valid))
         features = scan_features(reflectance, range_m, valid, range_weight=_RANGE_WEIGHT)
-        self._layers = _layers(features, features.any(axis=-1))
+        seen = features.any(axis=-1)
+        self._layers = _layers(features, (features**2).sum(axis=-1), seen)
+        self._seen = seen.sum()
         self.shape = valid.shape
         self._spectra = None, None
 
@@ -137,21 +139,20 @@ class SphereMap:
         if self._spectra[0] != shape:
             self._spectra = shape, fft.rfft2(self._layers, shape, workers=_WORKERS)
         own, other = self._spectra[1], photo_maps.spectra(key, shape)
-        # Products, and the energies of both within the overlap, and the overlap itself.
-        spectra = np.empty((4, *own.shape[1:]), np.complex64)
-        np.einsum("cij,cij->ij", own[:-2], other[:-2], out=spectra[0])
-        np.multiply(own[-2:-1], other[-1], out=spectra[1:2])
-        np.multiply(own[-1], other[-2:], out=spectra[2:])
-        product, energy, energy_other, overlap = fft.irfft2(spectra, shape, workers=_WORKERS)
-        enough = overlap > _LEAST_OVERLAP * min(patch.seen.sum(), self._layers[-1].sum())
-        both = np.maximum(energy, 1e-2) * np.maximum(energy_other, 1e-2)
-        scores = np.where(enough, product * np.sqrt(np.maximum(overlap, 0) / both), -1)
+        # Products, the scan's energy within the photo, and what overlaps; a photo's energy is the same everywhere.
+        spectra = np.empty((3, *own.shape[1:]), np.complex64)
+        np.einsum("cij,cij->ij", own[:-2], other[:-1], out=spectra[0])
+        np.multiply(own[-2:], other[-1], out=spectra[1:])
+        product, energy, overlap = fft.irfft2(spectra, shape, workers=_WORKERS)
+        enough = overlap > _LEAST_OVERLAP * min(patch.seen.sum(), self._seen)
+        usual = (patch.features**2).sum() / patch.seen.sum()
+        scores = np.where(enough, product / np.sqrt(np.maximum(energy, 1.0) * max(usual, 1e-6)), -1)
         return np.roll(scores, (height, width), (0, 1))
 
 
 @dataclass(frozen=True, eq=False)
 class _PhotoMap:
-    """Features (h, w, 5) of a photo over azimuth and elevation, where it is seen, its left and its top in degrees."""
+    """Features (h, w, 3) of a photo over azimuth and elevation, where it is seen, its left and its top in degrees."""
 
     features: np.ndarray
     seen: np.ndarray
@@ -189,10 +190,9 @@ class PhotoMaps:
         return self._transformed[key, shape]
 
 
-def _layers(features, seen):
-    """(7, h, w) float32: the features, their energy, and where there are any."""
-    energy = (features**2).sum(axis=-1)
-    return np.concatenate([np.moveaxis(features, -1, 0), energy[None], seen[None]]).astype(np.float32)
+def _layers(features, *others):
+    """(3 + K, h, w) float32: the features, and other images."""
+    return np.concatenate([np.moveaxis(features, -1, 0), np.stack(others)]).astype(np.float32)
 
 
 def _cut(azimuth_deg):
@@ -242,10 +242,13 @@ def _photo_map(photo, focal, pitch_deg, roll_deg, step_deg):
     azimuth, elevation = np.meshgrid(
         np.radians(left + (np.arange(cols) + 0.5) * step_deg), np.radians(top - (np.arange(rows) + 0.5) * step_deg)
     )
-    rays = np.stack([np.sin(azimuth) * np.cos(elevation), np.cos(azimuth) * np.cos(elevation), np.sin(elevation)], -1)
-    xy, _ = Camera(rotation, np.zeros(3), focal_px, 0.0, width, height).project(rays)
-    seen = np.isfinite(xy).all(axis=-1)
-    image, seen = photo.sampled(xy, seen, focal_px * np.radians(step_deg))
+    (sine, cosine), (rise, level) = ((np.sin(angle), np.cos(angle)) for angle in (azimuth, elevation))
+    rays = np.stack([sine * level, cosine * level, rise], -1)
+    turns = np.stack([[cosine * level, -sine * level, 0 * rise], [sine * rise, cosine * rise, -level]])
+    turns = np.moveaxis(turns, 1, -1) * np.radians(step_deg)
+    camera = Camera(rotation, np.zeros(3), focal_px, 0.0, width, height)
+    xy, depth = camera.project(rays)
+    seen = (depth > 0) & within(camera, xy)
     if np.count_nonzero(seen) < 64:
         return None
-    return _PhotoMap(edge_features(filled(image, seen), seen), seen, left, top)
+    return _PhotoMap(photo.features(xy, camera.jacobian(rays, turns), seen), seen, left, top)

@@ -4,10 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..photo_image import spacing, visible
+from ..models import within
+from ..photo_image import visible
 
 _LEAST_TILES = 8
 _LEAST_COVER = 0.5
+_LEAST_SEEN = 64
+# Every sixth pixel is looked at to find which part of the scan a photo shows; and what is taken around that.
+_GLANCE, _MARGIN = 6, 18
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,22 +76,61 @@ class Surfaces:
 
 @dataclass(frozen=True, eq=False)
 class Sighting:
-    """What a photo shows of a `ScanImage` under a model: its features there (h, w, 5), where it is seen, the sites."""
+    """What a photo shows of a `ScanImage` under a model, in the part of the image that it can show.
 
+    corner : (2,) int
+        Row and column of that part's first pixel.
+    own, features : (h, w, 3) float32
+        The scan's edge features; the photo's, zero where it does not show what the scanner saw, but not where the
+        scanner saw nothing.
+    seen : (h, w) bool
+    range : (h, w) float64
+    sites, places : (h, w, D) and (h, w, 2) float64
+        What the model projects, and where to.
+    jacobian : (h, w, 2, 2) float64
+        What a pixel to the right, and down, moves a place: [x or y, step].
+    """
+
+    corner: np.ndarray
+    own: np.ndarray
     features: np.ndarray
     seen: np.ndarray
+    range: np.ndarray
     sites: np.ndarray
+    places: np.ndarray
+    jacobian: np.ndarray
 
     @classmethod
     def of(cls, scan_image, photo, model):
         """Look; None where the photo shows too little of the scan."""
-        sites = model.sites(scan_image)
-        xy, depth = model.project(sites)
-        seen = visible(model, scan_image, xy, depth)
-        if np.count_nonzero(seen) < 64:
+        part = _part(scan_image, model)
+        if part is None:
             return None
-        features, seen = photo.features(xy, seen, spacing(xy, seen))
-        return cls(features, seen, sites)
+        sites, valid = model.sites(scan_image)[part], scan_image.valid[part]
+        xy, depth = model.project(sites)
+        seen = visible(model, valid, xy, depth)
+        if np.count_nonzero(seen) < _LEAST_SEEN:
+            return None
+        jacobian = model.jacobian(sites, model.turns(scan_image)[:, *part])
+        inside = (depth > 0) & within(model, xy)
+        features = photo.features(xy, jacobian, inside)
+        features *= (inside & (seen | ~valid))[..., None]
+        corner = np.array([part[0].start, part[1].start])
+        own, distance = scan_image.features[part], scan_image.range[part]
+        return cls(corner, own, features, seen, distance, sites, xy, jacobian)
+
+
+def _part(scan_image, model):
+    """The rows and columns that lie in the photo, with a margin, as slices; None where none does."""
+    xy, depth = model.project(model.sites(scan_image)[::_GLANCE, ::_GLANCE])
+    inside = (depth > 0) & within(model, xy)
+    if not inside.any():
+        return None
+    part = []
+    for axis in (0, 1):
+        there = np.flatnonzero(inside.any(axis=1 - axis)) * _GLANCE
+        part.append(slice(max(0, there[0] - _MARGIN), min(scan_image.shape[axis], there[-1] + _MARGIN)))
+    return tuple(part)
 
 
 def surfaces(scan_image, tiles, photo, model, radius, sighting=None):
@@ -108,20 +151,22 @@ def surfaces(scan_image, tiles, photo, model, radius, sighting=None):
     sighting = sighting or Sighting.of(scan_image, photo, model)
     if sighting is None or len(tiles.corners) < _LEAST_TILES:
         return None
-    features, seen, sites = sighting.features, sighting.seen, sighting.sites
-    shares = _tile_sums(seen.astype(np.float32), tiles.size)[tuple(tiles.corners.T)] / tiles.size**2
+    corners = tiles.corners - sighting.corner
+    inside = ((corners >= 0) & (corners + tiles.size <= sighting.seen.shape)).all(axis=1)
+    shares = np.zeros(len(corners))
+    shares[inside] = _tile_sums(sighting.seen.astype(np.float32), tiles.size)[tuple(corners[inside].T)] / tiles.size**2
     chosen = np.flatnonzero(shares >= _LEAST_COVER)
     if len(chosen) < _LEAST_TILES:
         return None
     middles = tiles.middles[chosen]
-    at = sites[middles[:, 0], middles[:, 1]]
-    places, inverse = _local_maps(scan_image, model, sites, middles, at)
-    scores, lively = _correlations(scan_image.features, features, tiles.corners[chosen], tiles.size, radius)
+    row, col = (middles - sighting.corner).T
+    at, places, inverse = sighting.sites[row, col], sighting.places[row, col], _inverse(sighting.jacobian[row, col])
+    scores, lively = _correlations(sighting.own, sighting.features, corners[chosen], tiles.size, radius)
     good = lively & np.isfinite(places).all(axis=1) & np.isfinite(inverse).all(axis=(1, 2))
     if np.count_nonzero(good) < _LEAST_TILES:
         return None
-    ranges = scan_image.range[middles[:, 0], middles[:, 1]]
-    return Surfaces(scores[good], at[good], places[good], inverse[good], middles[good], float(np.median(ranges[good])))
+    scale = float(np.median(sighting.range[row, col][good]))
+    return Surfaces(scores[good], at[good], places[good], inverse[good], middles[good], scale)
 
 
 def _tile_sums(image, size):
@@ -143,70 +188,22 @@ def _correlations(own, other, corners, size, radius):
     usual = float(np.median(energy[energy > 0])) if (energy > 0).any() else 1.0
     energy = np.maximum(energy, 0.25 * usual)
     strength = _tile_sums((own**2).sum(axis=-1), size)[tuple(corners.T)]
-    padded, own = _in_threes(padded), _in_threes(own)
     window, reach = 2 * radius + 1, size + 2 * radius
     scores = np.zeros((len(corners), window, window), np.float32)
     for index in np.flatnonzero(strength > 1e-3):
         row, col = corners[index]
-        product = sum(
-            cv2.matchTemplate(
-                other_half[row : row + reach, col : col + reach],
-                own_half[row : row + size, col : col + size],
-                cv2.TM_CCORR,
-            )
-            for other_half, own_half in zip(padded, own, strict=True)
+        product = cv2.matchTemplate(
+            padded[row : row + reach, col : col + reach], own[row : row + size, col : col + size], cv2.TM_CCORR
         )
         scores[index] = product / np.sqrt(energy[row : row + window, col : col + window] * strength[index])
     deviation = scores.std(axis=(1, 2), keepdims=True)
     return (scores - scores.mean(axis=(1, 2), keepdims=True)) / (deviation + 1e-3), deviation[:, 0, 0] > 1e-4
 
 
-def _in_threes(features):
-    """The five channels as two images of three, the last one empty: matchTemplate takes one channel or three."""
-    import cv2
-
-    channels = [*cv2.split(features), np.zeros(features.shape[:2], np.float32)]
-    return cv2.merge(channels[:3]), cv2.merge(channels[3:])
-
-
-def _local_maps(scan_image, model, sites, middles, at):
-    """Where the tiles' middles fall, and what a shift in the photo is in pixels of the scan's image.
-
-    For a camera the neighboring pixel is taken at the same distance: across a jump edge the photo does not follow.
-    """
-    steps = np.empty((len(middles), 2, at.shape[1]))
-    source = scan_image.directions if model.kind == "pose" else sites
-    valid = scan_image.valid if model.kind == "pose" else np.ones(scan_image.shape, bool)
-    for axis in (0, 1):
-        steps[:, axis] = _steps(source, valid, middles, axis)
-    if model.kind == "pose":
-        steps *= scan_image.range[middles[:, 0], middles[:, 1]][:, None, None]
-    places, _ = model.project(at)
-    jacobian = np.stack([model.project(at + steps[:, axis])[0] - places for axis in (0, 1)], axis=-1)
+def _inverse(jacobian):
+    """(N, 2, 2): from what moves in the photo to pixels of the scan; NaN where that cannot be told."""
     (a, b), (c, d) = np.moveaxis(jacobian, 0, -1)
     determinant = a * d - b * c
     usable = np.isfinite(jacobian).all(axis=(1, 2)) & (np.abs(determinant) > 1e-9)
     inverse = np.stack([np.stack([d, -b], -1), np.stack([-c, a], -1)], axis=1)
-    inverse = inverse / np.where(usable, determinant, np.nan)[:, None, None]
-    return places, inverse
-
-
-def _steps(values, valid, middles, axis, reach=4):
-    """What one pixel to the right (axis 0) or down (axis 1) adds to ``values`` around each middle."""
-    height, width = valid.shape
-    total = np.zeros((len(middles), values.shape[-1]))
-    count = np.zeros(len(middles))
-    rows, cols = middles.T
-    for first in range(-reach, 1):
-        second = first + reach
-        r0, c0 = (rows, cols + first) if axis == 0 else (rows + first, cols)
-        r1, c1 = (rows, cols + second) if axis == 0 else (rows + second, cols)
-        inside = (r0 >= 0) & (c0 >= 0) & (r1 < height) & (c1 < width)
-        r0, c0, r1, c1 = (np.where(inside, index, 0) for index in (r0, c0, r1, c1))
-        usable = inside & valid[r0, c0] & valid[r1, c1]
-        total += np.where(usable[:, None], values[r1, c1] - values[r0, c0], 0) / reach
-        count += usable
-    steps = total / np.maximum(count, 1)[:, None]
-    if (count > 0).any():
-        steps[count == 0] = np.median(steps[count > 0], axis=0)
-    return steps
+    return inverse / np.where(usable, determinant, np.nan)[:, None, None]

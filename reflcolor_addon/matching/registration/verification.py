@@ -2,15 +2,20 @@
 
 Under a wrong model a tile's best place is anywhere in its window, so that few lie in the middle by chance. The share of
 tiles in the middle, in deviations of what chance gives, is the evidence. But one long edge, a skyline or an eave, puts
-all tiles along it in place at once: so the tiles that have but one best place must say the same by themselves. The
-thresholds are set over all unrelated pairs of real scans and of simulated ones (``python -m benchmarks.matching
-unrelated``); fitting the model to the same tiles is in that, too.
+all tiles along it in place at once: so the tiles that have but one best place must say the same by themselves.
+
+What chance gives is not the same everywhere: where a scan or a photo repeats itself, where tiles are few or drawn out,
+a wrong model does better. So it is tried: parts of the photo are exchanged, which makes every model wrong, and the
+model must stand out by far from what is found then (`by_chance`). The rates of right and of wrong photos are measured
+by ``python -m benchmarks.trust``.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...messages import Message
+from .refinement import fitted, looked_up
 from .tiles import Sighting, Tiles, surfaces
 
 RADIUS = 8
@@ -19,10 +24,12 @@ RADIUS = 8
 TILE = 40
 _SIZES = (28, TILE, 56)
 _NEAR = 1.5
+_SPREAD = 0.5
 _CHANCE = 0.06
 # What strength is needed where the photo was taken from the scanner's place, and where from anywhere: the more freedom
-# a model has, the more often a wrong one fits by chance.
-_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE = 3.2, 14.0
+# a model has, the more often a wrong one fits by chance. And how much more than what was found by chance.
+_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE = 3.5, 9.0
+_BEYOND_CHANCE, _CHANCE_DEVIATIONS = 2.5, 2.0
 _ANYWHERE_SHARE = 0.2
 # A tile is distinct if nothing farther than this from its best place is nearly as good, in deviations; what strength
 # they need, as a share of what all tiles do.
@@ -30,7 +37,18 @@ _APART, _DISTINCT = 3.0, 0.3
 _NEEDED_OF_DISTINCT = 0.7
 _ACCEPTED_MEAN = 0.85
 # Tiles half overlap: four in place tell what one point does, and a camera that may be anywhere goes through any four.
-_TILES_AT_SCANNER, _TILES_ANYWHERE = 10, 30
+LEAST_PARTS, _TILES_ANYWHERE = 10, 30
+# Of a photo whose parts are exchanged: whether it is mirrored, and what share of it is moved down and to the right.
+_EXCHANGED = (
+    (0, 0, 0.35),
+    (0, 0, 0.65),
+    (0, 0.5, 0.2),
+    (0, 0.5, 0.7),
+    (1, 0, 0),
+    (1, 0, 0.5),
+    (1, 0.5, 0.25),
+    (1, 0.5, 0.75),
+)
 # The tiles in place must spread over the scan as far as a third of how all tiles do.
 _ACCEPTED_SPREAD = 0.33
 
@@ -84,10 +102,12 @@ class Evidence:
         """One number to compare models by: the weaker of both strengths, as a share of what is needed."""
         return min(self.strength, self.distinct / _NEEDED_OF_DISTINCT) / self.needed
 
-    def __str__(self):
+    @property
+    def said(self):
+        """A `Message` for a person."""
         if self.tiles == 0:
-            return "it shows nothing of the scan that could be found"
-        return f"{self.in_place} of {self.tiles} parts of the scan agree with it"
+            return Message("it shows nothing of the scan that could be found")
+        return Message("{count} of {all} parts of the scan agree with it", count=self.in_place, all=self.tiles)
 
 
 NO_EVIDENCE = Evidence(0.0, 0, 0, 0.0, 0.0, 0.0)
@@ -117,37 +137,45 @@ def evidence(scan_image, photo, model):
     )
 
 
-def known_before(proof, scan_image):
+def known_before(proof):
     """Return `Evidence` that need be but what a model without any freedom needs: nothing was searched for it."""
-    return replace(proof, needed=_least(scan_image), needed_tiles=_TILES_AT_SCANNER)
+    return replace(proof, needed=_NEEDED_AT_SCANNER, needed_tiles=LEAST_PARTS)
 
 
-def _least(scan_image):
-    # Where the image is finer than the grid its pixels are not independent of each other, and chance does more.
-    return _NEEDED_AT_SCANNER * scan_image.pixels_per_measurement
+def beyond_chance(proof, scan_image, photo, model):
+    """Return `Evidence` that need be so much more than what is found for a photo whose parts are exchanged."""
+    sighting = Sighting.of(scan_image, photo, model)
+    if sighting is None:
+        return proof
+    strengths = by_chance(scan_image, sighting, model)
+    if len(strengths) < 2:
+        return proof
+    chance = strengths.mean() + _CHANCE_DEVIATIONS * strengths.std(ddof=1)
+    return replace(proof, needed=max(proof.needed, _BEYOND_CHANCE * float(chance)))
 
 
 def _needed(scan_image, model):
     """The strength and the number of tiles that are needed for a model."""
     if model.kind == "homography":
-        return _least(scan_image), _TILES_AT_SCANNER
+        return _NEEDED_AT_SCANNER, LEAST_PARTS
     share = np.linalg.norm(model.center) / np.median(scan_image.range[scan_image.valid])
     freedom = [0, _ANYWHERE_SHARE]
-    far = _NEEDED_ANYWHERE * scan_image.pixels_per_measurement
     return (
-        float(np.interp(share, freedom, [_least(scan_image), far])),
-        float(np.interp(share, freedom, [_TILES_AT_SCANNER, _TILES_ANYWHERE])),
+        float(np.interp(share, freedom, [_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE])),
+        float(np.interp(share, freedom, [LEAST_PARTS, _TILES_ANYWHERE])),
     )
 
 
-def judged(found):
-    """Return the `Evidence` in `Surfaces` of radius `RADIUS`."""
+def judged(found, shift=0.0):
+    """Return the `Evidence` in `Surfaces` of radius `RADIUS`, for a model that shifts the tiles by (N, 2) pixels more,
+    to the right and down."""
     radius = found.radius
     count = len(found.scores)
     best = found.scores.reshape(count, -1).argmax(axis=1)
     row, col = np.divmod(best, 2 * radius + 1)
-    near = np.hypot(row - radius, col - radius) <= _NEAR
-    middle = found.scores[:, radius, radius]
+    shift = np.broadcast_to(shift, (count, 2))
+    near = np.hypot(col - radius - shift[:, 0], row - radius - shift[:, 1]) <= _NEAR
+    middle = looked_up(found.scores, shift[None])[0]
     spread = 0.0
     if near.sum() >= 3:
         axes = np.linalg.svd(found.middles - found.middles.mean(axis=0), full_matrices=False)[2]
@@ -157,6 +185,27 @@ def judged(found):
         max(_deviations(near[one_peak]), 0.0) * max(float(middle[one_peak].mean()), 0.0) if one_peak.any() else 0.0
     )
     return Evidence(_deviations(near), int(near.sum()), count, float(middle.mean()), spread, distinct)
+
+
+def by_chance(scan_image, sighting, model):
+    """Return the strengths (K,) that a model has for photos that cannot be right: parts of its own, exchanged.
+
+    The photo's edges are moved far away, and mirrored, under the scan; then the model is fitted to them as it was to
+    the photo. So all that helps a wrong model is in it: what repeats, long edges, few and drawn out tiles, freedom.
+    """
+    strengths, rng = [], np.random.default_rng(0)
+    height, width = sighting.seen.shape
+    tiles = Tiles.of(scan_image, TILE)
+    free = model.ALL if model.kind == "homography" else model.POSE
+    for mirrored, down, right in _EXCHANGED:
+        features = sighting.features[:, ::-1] * np.float32([1, 1, -1]) if mirrored else sighting.features
+        features = np.roll(features, (round(down * height), round(right * width)), (0, 1))
+        found = surfaces(scan_image, tiles, None, model, RADIUS, replace(sighting, features=features))
+        if found is not None:
+            changed, _ = fitted(found, model, free, blur=1.0, spread=_SPREAD, rng=rng)
+            shift = np.einsum("nij,nj->ni", found.inverse, changed.project(found.sites)[0] - found.places)
+            strengths.append(judged(found, np.nan_to_num(shift, nan=2.0 * RADIUS)).strength)
+    return np.array(strengths)
 
 
 def _deviations(near):

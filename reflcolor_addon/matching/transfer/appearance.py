@@ -1,7 +1,8 @@
 """Colors for what no photo saw, learnt from what was seen: the same material has the same reflectance and texture.
 
 How far that can be trusted is measured, not assumed: parts of what was seen are held out, contiguous ones as the unseen
-are, and predicted from the rest. Where the prediction is no better than the mean color, there is no seed.
+are, and predicted from the rest. Where the prediction does not prove better than the mean color by a margin, there is
+no seed.
 """
 
 from dataclasses import dataclass
@@ -11,10 +12,13 @@ import numpy as np
 from ...color import colorspaces
 
 _NEIGHBORS = 9
-_FOLDS = 5
+_FOLDS = 4
 _LEAST_SEEN = 30
 LEAST_CONFIDENCE = 0.2
+"""The share of the mean color's error by which a guess must be better, with what chance may do taken off."""
 _BINS = 4
+# Standard errors, from held out part to part, that are taken off what the guesses gained.
+_DOUBT = 1.5
 
 
 def described(image, labels, count):
@@ -69,8 +73,8 @@ class Appearance:
         descriptors : (N, D)
             See `described`; of all scans of a site together.
         rgb : (N, 3) uint8
-        places : (N,)
-            Where they are, along one direction: neighbors are held out together.
+        places : (N, 2)
+            Where they are, in two directions: neighbors along one are held out together, then along the other.
 
         Returns
         -------
@@ -82,25 +86,18 @@ class Appearance:
         spread = descriptors.std(axis=0)
         scale = np.where(spread > 1e-9, 1 / np.maximum(spread, 1e-9), 0)
         chrominance = colorspaces.chrominance(rgb, "cielab")
-        fold = np.argsort(np.argsort(places, kind="stable"), kind="stable") * _FOLDS // len(rgb)
-        error, baseline, doubt = np.zeros(len(rgb)), np.zeros(len(rgb)), np.zeros(len(rgb))
-        for part in range(_FOLDS):
-            held, rest = fold == part, fold != part
-            predicted, _, doubt[held] = _nearest(
-                descriptors[held] * scale, descriptors[rest] * scale, chrominance[rest]
-            )
-            error[held] = np.linalg.norm(predicted - chrominance[held], axis=1)
-            baseline[held] = np.linalg.norm(chrominance[rest].mean(axis=0) - chrominance[held], axis=1)
-        limits = np.quantile(doubt, np.linspace(0, 1, _BINS + 1)[1:-1])
-        in_bin = np.searchsorted(limits, doubt)
-        skill = np.array(
-            [
-                1 - error[in_bin == b].sum() / max(baseline[in_bin == b].sum(), 1e-9) if (in_bin == b).any() else 0.0
-                for b in range(_BINS)
-            ]
-        )
-        # More doubt is never more trust.
-        skill = np.minimum.accumulate(np.clip(skill, 0, 1))
+        held_out = []
+        for along in np.transpose(places):
+            fold = np.argsort(np.argsort(along, kind="stable"), kind="stable") * _FOLDS // len(rgb)
+            for part in range(_FOLDS):
+                held, rest = fold == part, fold != part
+                predicted, _, doubt = _nearest(descriptors[held] * scale, descriptors[rest] * scale, chrominance[rest])
+                error = np.linalg.norm(predicted - chrominance[held], axis=1)
+                baseline = np.linalg.norm(chrominance[rest].mean(axis=0) - chrominance[held], axis=1)
+                held_out.append((doubt, error, baseline))
+        limits = np.quantile(np.concatenate([doubt for doubt, _, _ in held_out]), np.linspace(0, 1, _BINS + 1)[1:])
+        # Beyond the doubt that was met there is no trust; and more doubt is never more trust.
+        skill = np.minimum.accumulate([*(_skill(held_out, limits, number) for number in range(_BINS)), 0.0])
         return cls(descriptors, chrominance, rgb, scale, limits, skill)
 
     def predict(self, descriptors):
@@ -109,6 +106,20 @@ class Appearance:
         _, near, doubt = _nearest(descriptors * self.scale, own, self.chrominance)
         rgb = np.rint(np.median(self.rgb[near], axis=1)).astype(np.uint8)
         return rgb, self.skill[np.searchsorted(self.limits, doubt)]
+
+
+def _skill(held_out, limits, number):
+    """What of the mean color's error is gone in one range of doubt, less what may be chance; 0 at least."""
+    gained, all_ = [], 0.0
+    for doubt, error, baseline in held_out:
+        own = np.minimum(np.searchsorted(limits, doubt), _BINS - 1) == number
+        if own.any():
+            gained.append((baseline[own] - error[own]).sum())
+            all_ += baseline[own].sum()
+    if len(gained) < 2 or all_ <= 0:
+        return 0.0
+    by_chance = np.sqrt(len(gained)) * np.std(gained, ddof=1)
+    return float(np.clip((np.sum(gained) - _DOUBT * by_chance) / all_, 0, 1))
 
 
 def _nearest(wanted, known, chrominance):

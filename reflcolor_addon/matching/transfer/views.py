@@ -51,7 +51,7 @@ def seen_by(photo, model, image):
 
     sites = model.sites(image)
     xy, depth = model.project(sites)
-    seen = visible(model, image, xy, depth, panes=image.panes)
+    seen = visible(model, image.valid, xy, depth, panes=image.panes)
     border = _BORDER_SHARE * max(model.width, model.height)
     inside = (xy >= border).all(axis=-1) & (np.nan_to_num(xy) <= [model.width - border, model.height - border]).all(
         axis=-1

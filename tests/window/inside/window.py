@@ -85,7 +85,7 @@ class Window(Hands, Eyes, Buttons, Stalls):
     # ---- Blender
 
     def start_anew(self):
-        """Open Blender's factory startup file without its cube, in one window, nothing of an earlier scenario left."""
+        """Open Blender's factory startup file in one window, nothing of an earlier scenario left."""
         preferences = bpy.context.preferences
         preferences.view.show_splash = False
         # There is no window manager under Xvfb: what would open in a window of its own opens in this one.
@@ -95,7 +95,6 @@ class Window(Hands, Eyes, Buttons, Stalls):
         preferences.view.smooth_view = 0
         bpy.ops.wm.read_homefile(use_factory_startup=True)
         yield 0.3
-        bpy.data.objects.remove(bpy.data.objects["Cube"])
         self.push("Start")
         yield from self.move((4, self.bpy_window.height // 2))
 
