@@ -8,7 +8,7 @@ from .scene import polls
 from .scene.images import read_pixel
 from .scene.reports import reported
 from .scene.seed_list import SeedPlace, append_seed
-from .scene.texts import NO_COLOR, told
+from .scene.texts import NO_COLOR
 
 
 class REFLCOLOR_OT_add_seed(SeedPlace, bpy.types.Operator):
@@ -61,7 +61,7 @@ class REFLCOLOR_OT_add_seed(SeedPlace, bpy.types.Operator):
             color = read_pixel(photo, *self.photo_xy) if photo is not None else None
             if color is None:
                 x, y = self.photo_xy
-                raise SeedsError(told(NO_COLOR, photo=self.photo, x=x, y=y))
+                raise SeedsError(NO_COLOR, photo=self.photo, x=x, y=y)
         append_seed(obj, self.row, self.col, color, photo, self.photo_xy)
         return {"FINISHED"}
 

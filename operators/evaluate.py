@@ -53,9 +53,7 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
             # Black is what scanners write where they saw no color.
             known &= truth.any(axis=-1)
         else:
-            raise ScanError(
-                told("{name}: the scan came without colors; choose an image of its true colors", name=obj.name)
-            )
+            raise ScanError("{name}: the scan came without colors; choose an image of its true colors", name=obj.name)
         return lambda progress, cancelled: (evaluate(rgb, truth, known), error_map(rgb, truth, known)[place])
 
     def finish(self, context, result):
@@ -82,7 +80,7 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
             return obj.reflcolor.truth_image
         image = bpy.data.images.get(self.truth)
         if image is None:
-            raise ScanError(told("there is no image {name}; open it first", name=self.truth))
+            raise ScanError("there is no image {name}; open it first", name=self.truth)
         return image
 
 
@@ -90,16 +88,14 @@ def _pixels(image, obj):
     state, (width, height) = obj.reflcolor, image.size
     if (width, height) != (state.cols, state.rows):
         raise ScanError(
-            told(
-                "{image}: is {width} x {height} pixels, but the scan {name} has {cols} columns x {rows} rows; "
-                "they must be the same",
-                image=image.name,
-                width=width,
-                height=height,
-                name=obj.name,
-                cols=state.cols,
-                rows=state.rows,
-            )
+            "{image}: is {width} x {height} pixels, but the scan {name} has {cols} columns x {rows} rows; "
+            "they must be the same",
+            image=image.name,
+            width=width,
+            height=height,
+            name=obj.name,
+            cols=state.cols,
+            rows=state.rows,
         )
     return read_image(image)
 

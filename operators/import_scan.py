@@ -128,9 +128,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
             "units_per_metre": 1 / context.scene.unit_settings.scale_length,
         }
         if pair and (len(pair) != 2 or len(paths) != 2):
-            raise ScanError(
-                told("{name}: pick two images together, one of range and one of reflectance", name=pair[0].name)
-            )
+            raise ScanError("{name}: pick two images together, one of range and one of reflectance", name=pair[0].name)
 
         def work(progress, cancelled):
             files = [describe_pair(*pair, sensor, range_scale=range_scale, swap=swap)] if pair else paths

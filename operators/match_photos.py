@@ -34,7 +34,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         listed = context.scene.reflcolor.photos
         photos = [(photo.image.name, read_pixels(photo.image)) for photo in listed if photo.image is not None]
         if any(pixels is None for _, pixels in photos):
-            raise SeedsError(told("a photo of the list cannot be read; remove it and load it again"))
+            raise SeedsError("a photo of the list cannot be read; remove it and load it again")
         settings = self._settings = core_settings(self, context.scene.reflcolor, MATCH_NAMES)
         jobs = [
             ScanJob(

@@ -12,7 +12,7 @@ from .scene.quiet import point_to, write_quietly
 from .scene.reports import reported
 from .scene.seed_arrays import FOUND_BY
 from .scene.seed_list import selected_seeds
-from .scene.texts import NO_COLOR, told
+from .scene.texts import NO_COLOR
 from .window.live_update import redraw_seeds
 
 
@@ -42,7 +42,7 @@ class REFLCOLOR_OT_pick_color(bpy.types.Operator):
         color = read_pixel(image, *self.photo_xy) if image is not None else None
         if color is None:
             x, y = self.photo_xy
-            raise SeedsError(told(NO_COLOR, photo=self.photo, x=x, y=y))
+            raise SeedsError(NO_COLOR, photo=self.photo, x=x, y=y)
         selected = [] if self.sample_only or settings.picked else selected_seeds(obj)
         for seed in (obj.reflcolor.seeds[index] for index in selected):
             give_color(seed, color, image if len(selected) == 1 else None, self.photo_xy)

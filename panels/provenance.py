@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_n as n_
 
 from ..operators.scene.provenance import provenance_text
 from ..operators.scene.scan_object import COLORIZED
-from ..operators.scene.texts import core_line, label
+from ..operators.scene.texts import label, shown
 from ..reflcolor_addon.errors import ReflcolorError
 from ..reflcolor_addon.report.provenance import outline, parse_provenance
 from .step import Step, in_view
@@ -79,7 +79,7 @@ def _outline(text):
     try:
         return outline(parse_provenance(text)), None
     except ReflcolorError as error:
-        return None, core_line(str(error))
+        return None, shown(error.message)
 
 
 classes = (in_view(Provenance),)

@@ -58,3 +58,20 @@ def translated(text, look_up):
     }
     template = look_up(text.template)
     return template.format(**values) if values else template
+
+
+def value_of(text, name):
+    """Return a value that a text was made with, or a Message within it; None where there is none of that name."""
+    if not isinstance(text, Message):
+        return None
+    if name in text.values:
+        return text.values[name]
+    found = (value_of(value, name) for value in text.values.values())
+    return next((value for value in found if value is not None), None)
+
+
+def about_scan(text, scan):
+    """Return a text that says which scan it is about, as one of several: by its value ``scan``, or put before it."""
+    if value_of(text, "scan") is not None or text.startswith(f"{scan}: "):
+        return text
+    return Message("{scan}: {text}", scan=scan, text=text)

@@ -4,7 +4,7 @@ import copy
 import json
 
 from reflcolor_addon.errors import ScanError
-from reflcolor_addon.messages import Message, translated
+from reflcolor_addon.messages import Message, about_scan, translated, value_of
 
 GERMAN = {
     "{file}: line {line}: expected a number": "{file}: Zeile {line}: eine Zahl wird erwartet",
@@ -52,3 +52,16 @@ def test_a_copy_keeps_template_and_values():
     message = copy.deepcopy(Message("{file}: line {line}: expected a number", file="a.ptx", line=3))
     assert message.template.startswith("{file}")
     assert message.values["line"] == 3
+
+
+def test_a_value_is_found_inside_a_message_inside_a_message():
+    inner = Message("seed {seed}: no return", seed=3)
+    assert value_of(Message("{scan}: {text}", scan="wall", text=inner), "seed") == 3
+    assert value_of(inner, "scan") is None
+    assert value_of("seed 3: no return", "seed") is None
+
+
+def test_a_line_about_one_of_several_scans_names_it_once():
+    named = Message("{count} seeds lie where {scan} has no return", count=5, scan="wall")
+    assert about_scan(named, "wall") is named
+    assert about_scan(Message("try tone {tone}", tone=2), "wall") == "wall: try tone 2"

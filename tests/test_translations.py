@@ -75,24 +75,25 @@ def test_the_catalogue_is_taken_off_with_the_extension(installed_blender):
 def texts(installed_blender, monkeypatch):
     """The helpers, with a catalogue that knows two lines of the core."""
     module = sys.modules[f"{EXTENSION}.operators.scene.texts"]
-    known = {"seed {}: no return at row {}": "Saatpunkt {}: keine Messung in Zeile {}", "Seed {} of {}": "S {} / {}"}
+    known = {
+        "seed {seed}: no return at row {row}": "Saatpunkt {seed}: keine Messung in Zeile {row}",
+        "{name}: {text}": "{name} - {text}",
+    }
     monkeypatch.setattr(module, "pgettext_rpt", lambda text: known.get(text, text))
     return module
 
 
-@pytest.mark.parametrize(
-    ("line", "expected"),
-    [
-        ("seed 3: no return at row 12", "Saatpunkt 3: keine Messung in Zeile 12"),
-        ("Seed 1 of 50", "S 1 / 50"),
-        ("wall 2: Seed 1 of 50", "wall 2: S 1 / 50"),
-        ("scan {1} has 3 {holes}", "scan {1} has 3 {holes}"),
-        ("garage2.ptx: line 12: expected 4 or 7 values", "garage2.ptx: line 12: expected 4 or 7 values"),
-        ("", ""),
-    ],
-)
-def test_lines_of_the_core_are_looked_up_without_their_numbers(texts, line, expected):
-    assert texts.core_line(line) == expected
+@pytest.fixture
+def message(installed_blender):
+    """The Message of the installed extension."""
+    return sys.modules[f"{EXTENSION}.reflcolor_addon.messages"].Message
+
+
+def test_lines_of_the_core_are_looked_up_by_their_template(texts, message):
+    line = message("seed {seed}: no return at row {row}", seed=3, row=12)
+    assert texts.shown(line) == "Saatpunkt 3: keine Messung in Zeile 12"
+    assert texts.shown(message("{name}: {text}", name="wall {1}", text=line)) == f"wall {{1}} - {texts.shown(line)}"
+    assert texts.shown(message("{file} is no scan", file="{holes}.ptx")) == "{holes}.ptx is no scan"
 
 
 def test_german_words_do_not_hold_english_ones(german):

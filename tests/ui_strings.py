@@ -100,7 +100,7 @@ def _strings_of(node):
     if not isinstance(node, ast.Call):
         return set()
     function = node.func
-    if isinstance(function, ast.Name) and function.id in _LOOKUPS and node.args:
+    if isinstance(function, ast.Name) and _is_lookup(function.id) and node.args:
         return {(ANY, text) for text in _literals(node.args[0])}
     if isinstance(function, ast.Attribute) and function.attr == "report" and len(node.args) == 2:
         return {(ANY, text) for text in _literals(node.args[1])}
@@ -109,6 +109,11 @@ def _strings_of(node):
         if "text" in given and not (isinstance(given.get("translate"), ast.Constant) and not given["translate"].value):
             return {(_LAYOUT[function.attr], text) for text in _literals(given["text"])}
     return set()
+
+
+def _is_lookup(name):
+    """Whether what is called takes a text to look up, at once or, as an error or a Message, when it is shown."""
+    return name in _LOOKUPS or name == "Message" or (name.endswith("Error") and name != "UsageError")
 
 
 def _literals(node):

@@ -1,15 +1,13 @@
 """What the last operation on a scan had to say: kept with its object, for the panel to list."""
 
-import re
-
 import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
 
-from .texts import core_line, told
+from ...reflcolor_addon.messages import about_scan, value_of
+from .texts import shown, told
 
 # More than a person reads; the first ones tell what is wrong.
 MAX_NOTICES = 200
-_SEED = re.compile(r"seed (\d+): ")
 
 
 class ReflcolorNotice(bpy.types.PropertyGroup):
@@ -29,10 +27,10 @@ def tell(operator, obj, result, warnings, seeds=None, details=(), *, one_of_seve
     operator : bpy.types.Operator
     obj : bpy.types.Object
     result : str
-    warnings : sequence of str
+    warnings : sequence of Message
         One line each.
     seeds : Seeds, optional
-        What a warning "seed 3: ..." counts, from 1.
+        Those that a warning's value ``seed`` counts, from 1.
     details : sequence of str
         More of the result, to be read in the list only.
     one_of_several : bool
@@ -41,17 +39,16 @@ def tell(operator, obj, result, warnings, seeds=None, details=(), *, one_of_seve
     notices = obj.reflcolor.notices
     notices.clear()
     for warning in warnings:
-        named = warning if not one_of_several or warning.startswith(f"{obj.name}: ") else f"{obj.name}: {warning}"
-        operator.report({"WARNING"}, core_line(named))
+        operator.report({"WARNING"}, shown(about_scan(warning, obj.name) if one_of_several else warning))
     operator.report({"INFO"}, result)
     for text in (result, *details):
         notices.add().text = text
     for warning in warnings[:MAX_NOTICES]:
         notice = notices.add()
-        notice.text, notice.warning = core_line(warning), True
-        meant = _SEED.match(warning)
-        if meant and seeds is not None and 1 <= int(meant[1]) <= len(seeds):
-            notice.row, notice.col = (int(places[int(meant[1]) - 1]) for places in (seeds.rows, seeds.cols))
+        notice.text, notice.warning = shown(warning), True
+        number = value_of(warning, "seed")
+        if number is not None and seeds is not None and 1 <= number <= len(seeds):
+            notice.row, notice.col = (int(places[number - 1]) for places in (seeds.rows, seeds.cols))
     if len(warnings) > MAX_NOTICES:
         notice = notices.add()
         notice.text = told("{count} more warnings", count=len(warnings) - MAX_NOTICES)

@@ -3,7 +3,7 @@
 from functools import wraps
 
 from ...reflcolor_addon.errors import ReflcolorError, UsageError
-from .texts import core_line
+from .texts import shown
 
 
 def reported(execute):
@@ -14,7 +14,7 @@ def reported(execute):
         try:
             return execute(self, context)
         except (ReflcolorError, UsageError) as error:
-            self.report({"ERROR"}, core_line(str(error)))
+            self.report({"ERROR"}, shown(error.message))
             return {"CANCELLED"}
 
     return reporting

@@ -10,7 +10,6 @@ from ...reflcolor_addon.scan.scan import Scan
 from .collections import SCANS, own_collection
 from .images import write_image
 from .nodes import color_node, node_tree_of, show_in_material
-from .texts import told
 
 GRAY = "Reflectance_Gray"
 COLORIZED = "Colorized"
@@ -111,9 +110,7 @@ def grid_indices(obj):
     rows, cols = (values_of(obj, name, np.int32) for name in ("grid_row", "grid_col"))
     state = obj.reflcolor
     if rows.size and (rows.min() < 0 or cols.min() < 0 or rows.max() >= state.rows or cols.max() >= state.cols):
-        raise ScanError(
-            told("{name}: grid_row and grid_col point outside the scan; import the scan again", name=obj.name)
-        )
+        raise ScanError("{name}: grid_row and grid_col point outside the scan; import the scan again", name=obj.name)
     return rows, cols
 
 
@@ -193,9 +190,7 @@ def colors_of(obj, name):
     attribute = obj.data.color_attributes.get(name)
     if attribute is None or attribute.domain != "POINT":
         raise ScanError(
-            told(
-                "{object}: the mesh has no color attribute {name} with one color per vertex", object=obj.name, name=name
-            )
+            "{object}: the mesh has no color attribute {name} with one color per vertex", object=obj.name, name=name
         )
     rgba = np.empty(4 * len(attribute.data), np.float32)
     attribute.data.foreach_get("color_srgb", rgba)
@@ -232,11 +227,9 @@ def values_of(obj, name, dtype):
     attribute = obj.data.attributes.get(name)
     if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
         raise ScanError(
-            told(
-                "{object}: the mesh has lost its attribute {name}; undo what removed it, or import again",
-                object=obj.name,
-                name=name,
-            )
+            "{object}: the mesh has lost its attribute {name}; undo what removed it, or import again",
+            object=obj.name,
+            name=name,
         )
     values = np.empty(len(attribute.data), dtype)
     attribute.data.foreach_get("value", values)

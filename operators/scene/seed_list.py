@@ -10,7 +10,6 @@ from .editors import select_only
 from .quiet import point_to, write_quietly
 from .scan_object import grid_indices
 from .seed_arrays import FOUND_BY, seed_arrays
-from .texts import told
 
 
 class SeedPlace:
@@ -24,14 +23,11 @@ class SeedPlace:
         rows, cols = obj.reflcolor.rows, obj.reflcolor.cols
         if self.row >= rows or self.col >= cols:
             raise SeedsError(
-                told(
-                    "row {row}, column {col} is outside the scan's grid "
-                    "(rows 0 to {last_row}, columns 0 to {last_col})",
-                    row=self.row,
-                    col=self.col,
-                    last_row=rows - 1,
-                    last_col=cols - 1,
-                )
+                "row {row}, column {col} is outside the scan's grid (rows 0 to {last_row}, columns 0 to {last_col})",
+                row=self.row,
+                col=self.col,
+                last_row=rows - 1,
+                last_col=cols - 1,
             )
 
 
@@ -46,7 +42,7 @@ class SeedChoice:
         index = state.active_seed if self.index < 0 else self.index
         if not 0 <= index < len(state.seeds):
             raise SeedsError(
-                told("there is no seed {index}; the scan has seeds 0 to {last}", index=index, last=len(state.seeds) - 1)
+                "there is no seed {index}; the scan has seeds 0 to {last}", index=index, last=len(state.seeds) - 1
             )
         return index
 
@@ -126,7 +122,7 @@ def snapped_place(obj, row, col):
     valid = np.zeros((obj.reflcolor.rows, obj.reflcolor.cols), bool)
     valid[grid_indices(obj)] = True
     if not valid.any():
-        raise SeedsError(told("{name}: no pixel has a return, so no seed can be placed", name=obj.name))
+        raise SeedsError("{name}: no pixel has a return, so no seed can be placed", name=obj.name)
     return nearest_valid(valid, row, col)
 
 

@@ -7,7 +7,7 @@ import bpy
 
 from ...reflcolor_addon.errors import Cancelled
 from ..scene.reports import reported
-from ..scene.texts import core_line, label, told
+from ..scene.texts import label, shown, told
 
 # Between two looks at a job.
 _INTERVAL_S = 0.1
@@ -223,7 +223,7 @@ class JobOperator:
     def _show(self, context):
         job = self._job
         if context.workspace is not None:
-            going_on = f"{job.fraction:.0%}  {core_line(job.text)}   |   {label('ESC: Cancel')}"
+            going_on = f"{job.fraction:.0%}  {shown(job.text)}   |   {label('ESC: Cancel')}"
             text = label("Cancelling") if job.stopping else going_on
             context.workspace.status_text_set(f"{label(job.name)}:  {text}")
         _redraw_views(context)

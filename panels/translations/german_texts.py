@@ -84,6 +84,9 @@ _MISSING = {
 }
 
 _REPORTS = {
+    "Cycles is not there to cast rays; enable Cycles Render Engine among the add-ons": (
+        "Cycles fehlt, um Strahlen zu verfolgen; Cycles Render Engine unter den Add-ons einschalten"
+    ),
     "Click on {name}": "Auf {name} klicken",
     "Colorized {count} scans: {names}": "{count} Scans eingefärbt: {names}",
     "Colorized {name} from {count} seeds": "{name} aus {count} Saatpunkten eingefärbt",
@@ -150,27 +153,33 @@ _REPORTS = {
 }
 
 CORE = {
+    "Writing {name}": "{name} wird geschrieben",
+    "{file}: cannot be written ({reason})": "{file}: nicht zu schreiben ({reason})",
+    "{file}: cannot be written ({reason}); choose another folder": (
+        "{file}: nicht zu schreiben ({reason}); einen anderen Ordner wählen"
+    ),
     "Estimating by kriging": "Schätzen durch Kriging",
     "Matched": "Zugeordnet",
     "Opening the photos": "Fotos werden geöffnet",
     "Preparing the scan": "Scan wird vorbereitet",
-    "Seed {} of {}": "Saatpunkt {} von {}",
+    "Seed {number} of {count}": "Saatpunkt {number} von {count}",
     "Writing the colors": "Farben werden geschrieben",
     "no seeds: add at least one pixel with a color": (
         "keine Saatpunkte: mindestens ein Pixel mit einer Farbe hinzufügen"
     ),
-    "seed {}: no return at row {}, column {}; moved to row {}, column {}": (
-        "Saatpunkt {}: keine Messung in Zeile {}, Spalte {}; verschoben nach Zeile {}, Spalte {}"
+    "seed {seed}: no return at row {row}, column {column}; moved to row {to_row}, column {to_column}": (
+        "Saatpunkt {seed}: keine Messung in Zeile {row}, Spalte {column}; "
+        "verschoben nach Zeile {to_row}, Spalte {to_column}"
     ),
-    "the colors are dark because most of the reflectance is; try tone {}": (
-        "die Farben sind dunkel, weil die Reflektanz es größtenteils ist; Tonwert {} versuchen"
+    "the colors are dark because most of the reflectance is; try tone {tone:g}": (
+        "die Farben sind dunkel, weil die Reflektanz es größtenteils ist; Tonwert {tone:g} versuchen"
     ),
-    "{} nearest of {} seeds": "{} nächste von {} Saatpunkten",
-    "{} pixels are cut off from every seed and keep their gray; add seeds there": (
-        "{} Pixel sind von allen Saatpunkten abgeschnitten und bleiben grau; dort Saatpunkte hinzufügen"
+    "{nearest} nearest of {count} seeds": "{nearest} nächste von {count} Saatpunkten",
+    "{count} pixels are cut off from every seed and keep their gray; add seeds there": (
+        "{count} Pixel sind von allen Saatpunkten abgeschnitten und bleiben grau; dort Saatpunkte hinzufügen"
     ),
 }
-"""Lines of the core, with {} for numbers."""
+"""Lines of the core."""
 
 MESSAGES = {
     ("*", text): german for texts in (_PANELS, _JOBS, _MISSING, _REPORTS, CORE) for text, german in texts.items()

@@ -6,7 +6,7 @@ same steps; they read and write the scene instead of files.
 
 from ..color.colorizer import colorize
 from ..matching import match_site
-from ..messages import Message
+from ..messages import Message, about_scan
 from ..progress import part
 from .check import check_plan
 from .read import read_jobs
@@ -54,16 +54,21 @@ def run_plan(plan, session):
                 with timed(job.times, "colorize"):
                     progress = part(session.progress, number, count, job.name)
                     colorize_job(job, plan.settings, progress=progress, cancelled=session.cancelled)
-                session.warnings += [about(job, warning, count > 1) for warning in job.colorization.warnings]
+                session.warnings += _named(job, count, job.colorization.warnings)
             write(job)
 
 
 def _tell_matching(jobs, session):
-    several = len(jobs) > 1
     for job in jobs:
-        session.warnings += [about(job, warning, several) for warning in job.matching.warnings]
-        for photo in job.matching.photos:
-            session.say(about(job, Message("{photo}: {note}", photo=photo.name, note=photo.note), several))
+        session.warnings += _named(job, len(jobs), job.matching.warnings)
+        notes = [Message("{photo}: {note}", photo=photo.name, note=photo.note) for photo in job.matching.photos]
+        for line in _named(job, len(jobs), notes):
+            session.say(line)
+
+
+def _named(job, count, lines):
+    """Lines that say which scan they are about, where there are several."""
+    return [about_scan(line, job.name) for line in lines] if count > 1 else lines
 
 
 def find_seeds(jobs, photos, settings, *, progress=None, cancelled=None):
@@ -101,10 +106,3 @@ def colorize_jobs(jobs, settings, *, progress=None, cancelled=None):
     for number, job in enumerate(jobs):
         colorize_job(job, settings, progress=part(progress, number, len(jobs), job.name), cancelled=cancelled)
         job.scan = None
-
-
-def about(job, line, several):
-    """Return a line that names its scan where there are several."""
-    if not several or str(line).startswith(f"{job.name}: "):
-        return line
-    return Message("{scan}: {line}", scan=job.name, line=line)

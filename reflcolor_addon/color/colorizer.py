@@ -12,6 +12,7 @@ from ..geodesic.blending import left_out
 from ..geodesic.engines import engine_for
 from ..geodesic.exact import HeldFields, add_fields, awaited
 from ..geodesic.graph import PixelGraph
+from ..messages import Message
 from ..scan.normalization import normalize
 from ..settings import Settings
 from . import colorspaces
@@ -93,7 +94,13 @@ class Colorizer:
         kriging = self.settings.kriging
         if kriging and len(seeds) > MAX_SEEDS:
             kriging = 0.0
-            warnings.append(f"kriging is left out: it takes {MAX_SEEDS} seeds at most, found {len(seeds)}")
+            warnings.append(
+                Message(
+                    "kriging is left out: it takes {most} seeds at most, found {count}",
+                    most=MAX_SEEDS,
+                    count=len(seeds),
+                )
+            )
         wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), replace(self.settings, tone=1.0)
         if self._spread is None or self._spread[0] != wanted:
             self._spread = None
@@ -105,11 +112,17 @@ class Colorizer:
         progress(_COLORED, "Writing the colors")
         unreached = int(np.count_nonzero(self.scan.valid & ~reached))
         if unreached:
-            warnings.append(f"{unreached} pixels are cut off from every seed and keep their gray; add seeds there")
+            warnings.append(
+                Message(
+                    "{count} pixels are cut off from every seed and keep their gray; add seeds there", count=unreached
+                )
+            )
         tone = tone_to_try(self._median, self.settings.tone)
         if tone is not None:
             # First, because a list of warnings may be cut.
-            warnings.insert(0, f"the colors are dark because most of the reflectance is; try tone {tone:g}")
+            warnings.insert(
+                0, Message("the colors are dark because most of the reflectance is; try tone {tone:g}", tone=tone)
+            )
         rgb, lost = self._paint(chroma, reached, cancelled)
         progress(1.0, "Colorized")
         return Colorization(
@@ -223,7 +236,9 @@ class Colorizer:
             # Pixels are settled a little more than once: they never tell of more than the threads are at.
             most = min(len(self._blended) + self.threads, len(wanted))
             ahead = max(ahead, len(self._blended), min(held + settled / inside, most))
-            progress(ahead / len(wanted), f"Seed {len(self._blended)} of {len(wanted)}")
+            progress(
+                ahead / len(wanted), Message("Seed {number} of {count}", number=len(self._blended), count=len(wanted))
+            )
 
         def added(index, field):
             self._blended.append(wanted[done + index])
@@ -248,7 +263,8 @@ class Colorizer:
         alpha = self.settings.alpha
 
         def tell():
-            progress(min(1, control.done / len(pixels)), f"{k} nearest of {len(pixels)} seeds")
+            text = Message("{nearest} nearest of {count} seeds", nearest=k, count=len(pixels))
+            progress(min(1, control.done / len(pixels)), text)
 
         with ThreadPoolExecutor(1, "reflcolor") as pool:
             later = pool.submit(self._engine.nearest, pixels, chrominance, alpha, k, control)

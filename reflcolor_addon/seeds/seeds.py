@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import SeedsError
 from ..files.atomic import written_atomically
 from ..files.images import read_image
+from ..messages import Message
 
 FORMAT = "reflcolor-seeds"
 VERSION = 1
@@ -180,13 +181,25 @@ class Seeds:
             if not scan.valid[row, col]:
                 rows[index], cols[index] = nearest_valid(scan.valid, row, col, wrap=scan.full_turn)
                 warnings.append(
-                    f"seed {index + 1}: no return at row {row}, column {col}; "
-                    f"moved to row {rows[index]}, column {cols[index]}"
+                    Message(
+                        "seed {seed}: no return at row {row}, column {column}; moved to row {to_row}, column "
+                        "{to_column}",
+                        seed=index + 1,
+                        row=row,
+                        column=col,
+                        to_row=int(rows[index]),
+                        to_column=int(cols[index]),
+                    )
                 )
         if len(warnings) >= _MANY_MOVED:
             warnings.insert(
                 0,
-                f"{len(warnings)} of {len(self)} seeds lie where {scan.name} has no return; are they of another scan?",
+                Message(
+                    "{count} of {all} seeds lie where {scan} has no return; are they of another scan?",
+                    count=len(warnings),
+                    all=len(self),
+                    scan=scan.name,
+                ),
             )
         return replace(self, rows=rows, cols=cols), warnings
 
