@@ -12,7 +12,7 @@ from .scene.image_sides import show_image
 from .scene.images import remember_pixels, write_image
 from .scene.provenance import record_photo
 from .scene.reports import reported
-from .scene.texts import core_line, told
+from .scene.texts import shown, told
 
 
 class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
@@ -40,7 +40,7 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
             warnings = []
             image = add_photo(context, path, warnings)
             for warning in warnings:
-                self.report({"WARNING"}, core_line(warning))
+                self.report({"WARNING"}, shown(warning))
             width, height = image.size
             said = told("Loaded {name}: {width} x {height} pixels", name=image.name, width=width, height=height)
             self.report({"INFO"}, said)

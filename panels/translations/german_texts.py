@@ -84,6 +84,11 @@ _MISSING = {
 }
 
 _REPORTS = {
+    "Writing {name}": "{name} wird geschrieben",
+    "{file}: cannot be written ({reason})": "{file}: nicht zu schreiben ({reason})",
+    "{file}: cannot be written ({reason}); choose another folder": (
+        "{file}: nicht zu schreiben ({reason}); einen anderen Ordner wählen"
+    ),
     "Cycles is not there to cast rays; enable Cycles Render Engine among the add-ons": (
         "Cycles fehlt, um Strahlen zu verfolgen; Cycles Render Engine unter den Add-ons einschalten"
     ),
@@ -153,11 +158,6 @@ _REPORTS = {
 }
 
 CORE = {
-    "Writing {name}": "{name} wird geschrieben",
-    "{file}: cannot be written ({reason})": "{file}: nicht zu schreiben ({reason})",
-    "{file}: cannot be written ({reason}); choose another folder": (
-        "{file}: nicht zu schreiben ({reason}); einen anderen Ordner wählen"
-    ),
     "Estimating by kriging": "Schätzen durch Kriging",
     "Matched": "Zugeordnet",
     "Opening the photos": "Fotos werden geöffnet",
