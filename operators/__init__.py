@@ -17,6 +17,7 @@ from . import (
     drag,
     drop_color,
     evaluate,
+    export_scan,
     import_scan,
     keep_gray,
     leave_preview,
@@ -73,6 +74,7 @@ _MODULES = (
     drop_files,
     wipe,
     simulate,
+    export_scan,
     leave_preview,
     place_seed,
     pick_color,
@@ -109,7 +111,11 @@ def register():
     ):
         owner.reflcolor = bpy.props.PointerProperty(type=cls, override={"LIBRARY_OVERRIDABLE"})
         _undo.append((_delete_property, owner))
-    for menu, module in ((bpy.types.TOPBAR_MT_file_import, import_scan), (bpy.types.TOPBAR_MT_file_export, simulate)):
+    for menu, module in (
+        (bpy.types.TOPBAR_MT_file_import, import_scan),
+        (bpy.types.TOPBAR_MT_file_export, export_scan),
+        (bpy.types.TOPBAR_MT_file_export, simulate),
+    ):
         menu.append(module.draw_menu)
         _undo.append((menu.remove, module.draw_menu))
     for service in _SERVICES:

@@ -13,7 +13,7 @@ ACTS = (
     ("load_seeds", "save_seeds"),
     ("colorize", "evaluate", "leave_preview", "set_up_render"),
     ("read_notice", "copy_provenance"),
-    ("simulate",),
+    ("export_scan", "simulate"),
 )
 
 

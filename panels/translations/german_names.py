@@ -10,11 +10,13 @@ _OPERATORS = {
     "Colorize": "Einfärben",
     "Copy Message": "Meldung kopieren",
     "Copy Provenance": "Herkunft kopieren",
+    "Colorized Laser Scan (.ply, .glb, .usd)": "Gefärbter Laserscan (.ply, .glb, .usd)",
     "Delete Picked Seeds": "Ausgewählte Saatpunkte löschen",
     "Delete Seeds": "Saatpunkte löschen",
     "Drop Color": "Farbe fallen lassen",
     "Drop Color or Preview": "Farbe oder Vorschau fallen lassen",
     "Evaluate Colors": "Farben bewerten",
+    "Export Colorized Scan": "Gefärbten Scan exportieren",
     "Import Laser Scan": "Laserscan importieren",
     "Keep Gray": "Grau lassen",
     "Laser Scan (.ptx, .e57, .scan.json, image pair)": "Laserscan (.ptx, .e57, .scan.json, Bildpaar)",
@@ -76,6 +78,7 @@ _PANELS = {
 }
 
 _PROPERTIES = {
+    "File Format": "Dateiformat",
     "Act": "Handlung",
     "Active Message": "Aktive Meldung",
     "Active Photo": "Aktives Foto",
@@ -167,6 +170,9 @@ _PROPERTIES = {
 }
 
 _CHOICES = {
+    "PLY": "PLY",
+    "USD": "USD",
+    "glTF (GLB)": "glTF (GLB)",
     "3D Cursor": "3D-Cursor",
     "4": "4",
     "8": "8",

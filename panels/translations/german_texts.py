@@ -56,6 +56,7 @@ _PANELS = {
 _JOBS = {
     "Colorize": "Einfärben",
     "Evaluate": "Bewerten",
+    "Export Colorized Scan": "Gefärbten Scan exportieren",
     "Import Laser Scan": "Laserscan importieren",
     "Match Photos": "Fotos zuordnen",
     "Simulate Laser Scan": "Laserscan simulieren",
@@ -97,6 +98,11 @@ _REPORTS = {
     "Colorized {name} from {count} seeds": "{name} aus {count} Saatpunkten eingefärbt",
     "Copied the report to the clipboard": "Bericht in die Zwischenablage kopiert",
     "Deleted {count} seeds": "{count} Saatpunkte gelöscht",
+    "Exported {path}": "{path} exportiert",
+    "{file}: the suffix tells what to write; expected one of {known}": (
+        "{file}: die Endung sagt, was geschrieben wird; erwartet: eine von {known}"
+    ),
+    "{object}: {reason}": "{object}: {reason}",
     "Found seeds for {count} scans: {counts}": "Saatpunkte für {count} Scans gefunden: {counts}",
     "Found {count} seeds for {name}": "{count} Saatpunkte für {name} gefunden",
     "Imported {name}": "{name} importiert",

@@ -123,6 +123,20 @@ _OPERATORS = {
     ),
 }
 
+_EXPORT = {
+    "Every return once, in the order of the scan's grid: for CloudCompare, MeshLab and scripts": (
+        "Jede Messung einmal, in der Reihenfolge des Scanrasters: für CloudCompare, MeshLab und Skripte"
+    ),
+    "For film and visual effects": "Für Film und visuelle Effekte",
+    "For viewers on the web and game engines": "Für Betrachter im Web und Spiele-Engines",
+    "What to write; a suffix that is typed decides otherwise": (
+        "Was geschrieben wird; eine getippte Endung entscheidet anders"
+    ),
+    "Write the selected scans with the colors that renders show, exactly as they are": (
+        "Die ausgewählten Scans mit den Farben schreiben, die Bilder zeigen, genau wie sie sind"
+    ),
+}
+
 _LOOKS = {
     "How far to trust each color: 1 at the seeds, falling with the distance from them": (
         "Wie weit jeder Farbe zu trauen ist: 1 an den Saatpunkten, fallend mit dem Abstand von ihnen"
@@ -217,4 +231,4 @@ _SETTINGS = {
     "Which settings to take over": "Welche Einstellungen zu übernehmen sind",
 }
 
-MESSAGES = {("*", text): german for tips in (_OPERATORS, _LOOKS, _SETTINGS) for text, german in tips.items()}
+MESSAGES = {("*", text): german for tips in (_OPERATORS, _EXPORT, _LOOKS, _SETTINGS) for text, german in tips.items()}

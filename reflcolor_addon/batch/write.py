@@ -6,8 +6,7 @@ from pathlib import Path
 
 from ..files.atomic import written_atomically
 from ..files.images import write_png
-from ..files.writers.glb import write_glb
-from ..files.writers.ply import write_ply
+from ..files.writers import MESH_WRITERS
 from ..matching import draw_matches
 from ..messages import Message
 from ..report.report import build_report, input_entry, output_entry, photo_entry, scan_entry, stamped
@@ -133,7 +132,7 @@ class _Writer:
     def _write_meshes(self, jobs, outputs):
         for output in outputs:
             if output.kind == MESH:
-                write = _MESH_WRITERS[output.path.suffix.lower()]
+                write = MESH_WRITERS[output.path.suffix.lower()]
                 surfaces = [surface_of(job) for job in jobs]
                 write(surfaces, output.path, progress=self._session.progress, cancelled=self._session.cancelled)
 
@@ -152,7 +151,6 @@ def _write_matches(job, plan, path):
     write_png(path, draw_matches(job.scan, plan.photos, job.seeds))
 
 
-_MESH_WRITERS = {".ply": write_ply, ".glb": write_glb}
 _SEED_WRITERS = {SEEDS: _write_seeds, MATCHES: _write_matches}
 
 

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from .georeference import local_center
 from .grid_mesh import CORNERS, MAX_INCIDENCE_DEG, STRIP_PIXELS, face_mask, quads_of
 
 
@@ -48,7 +49,11 @@ class ScanSurface:
 
     Attributes
     ----------
-    scan : Scan
+    name : str
+    shape : (H, W)
+        Of the scan's grid.
+    pose : (4, 4) float64
+        Scanner's frame to world.
     value_types : dict of numpy dtype
         float32 or int32, by the names of what every vertex has: ``reflectance``, ``range``, ``grid_row``, ``grid_col``
         and those of ``values``.
@@ -56,7 +61,7 @@ class ScanSurface:
     """
 
     def __init__(self, scan, rgb, values=None, *, max_incidence_deg=MAX_INCIDENCE_DEG, split_seam=False):
-        self.scan = scan
+        self.scan, self.name, self.shape, self.pose = scan, scan.name, scan.shape, scan.pose
         self._rgb, self._max_incidence_deg = rgb, max_incidence_deg
         self._split = split_seam and scan.full_turn
         self._values = {"reflectance": scan.reflectance, **(values or {})}
@@ -78,9 +83,19 @@ class ScanSurface:
         return face_mask(self.scan, self._max_incidence_deg)
 
     @cached_property
+    def center(self):
+        """(3,) float64, what single-precision coordinates are best measured from; see `local_center`."""
+        return local_center(self.scan)
+
+    @cached_property
     def face_count(self):
         """How many faces of four corners there are."""
         return int(np.count_nonzero(self._mask))
+
+    @property
+    def triangle_count(self):
+        """How many triangles these are cut into."""
+        return 2 * self.face_count
 
     def vertex_blocks(self):
         """Yield a VertexBlock of every strip of the grid."""
@@ -130,7 +145,7 @@ class ScanSurface:
     def _vertex_block(self, rows, cols, cols_to_the_right=0):
         scan, place = self.scan, (rows, cols)
         valid = scan.valid[place]
-        height, width = scan.shape
+        height, width = self.shape
         row, col = (index.astype(np.int32) for index in np.nonzero(valid))
         row += rows.start
         points = scan.points[place][valid]

@@ -6,7 +6,7 @@ import struct
 import numpy as np
 
 from ...errors import Cancelled, OutputError
-from ...scan.georeference import local_center, origin_shift
+from ...scan.georeference import origin_shift
 from ...scan.rotations import quaternion
 from ...srgb import srgb8_to_linear
 from ...version import __version__
@@ -33,9 +33,9 @@ def check_glb_size(surfaces, path, *, textures=None):
     Faces are only counted where the answer depends on it. Surfaces may be without their colors yet.
     """
     textures = textures or [None] * len(surfaces)
-    size = _glb_bytes(surfaces, textures, lambda surface: surface.vertex_count)
+    size = _glb_bytes(surfaces, textures, lambda surface: 2 * surface.vertex_count)
     if size > _LARGEST:
-        size = _glb_bytes(surfaces, textures, lambda surface: surface.face_count)
+        size = _glb_bytes(surfaces, textures, lambda surface: surface.triangle_count)
     if size > _LARGEST:
         raise OutputError(
             "{path}: would have {size:.1f} GiB, and a GLB ends at 4 GiB; make the mesh lighter with --faces, or write "
@@ -45,13 +45,13 @@ def check_glb_size(surfaces, path, *, textures=None):
         )
 
 
-def _glb_bytes(surfaces, textures, faces):
-    """About how many bytes a GLB of surfaces has, with ``faces(surface)`` faces of four corners."""
+def _glb_bytes(surfaces, textures, triangles):
+    """About how many bytes a GLB of surfaces has, with ``triangles(surface)`` triangles."""
     size = 0
     for surface, texture in zip(surfaces, textures, strict=True):
         values = len(surface.value_types) + (0 if surface.has_colors else _MORE_VALUES)
         # Place, normal and color; a vertex that is in no face is listed by its index.
-        size += surface.vertex_count * (12 + 12 + 8 + 4 * values + 4) + faces(surface) * 24
+        size += surface.vertex_count * (12 + 12 + 8 + 4 * values + 4) + triangles(surface) * 12
         size += len(texture or b"") + _JSON_PER_SCAN
     return size
 
@@ -65,7 +65,7 @@ def write_glb(surfaces, path, *, textures=None, progress=None, cancelled=None):
 
     Parameters
     ----------
-    surfaces : sequence of ScanSurface
+    surfaces : sequence of ScanSurface or MeshSurface
     path : path-like
     textures : sequence of bytes or None, optional
         A PNG or JPEG file for each surface, laid over the scan's grid; instead of ``COLOR_0``, which glTF would
@@ -85,10 +85,9 @@ def write_glb(surfaces, path, *, textures=None, progress=None, cancelled=None):
     document = _Document()
     shift = None
     for surface, texture in zip(surfaces, textures, strict=True):
-        scan = surface.scan
-        center = local_center(scan)
-        shift = origin_shift(scan.pose[:3, :3] @ center + scan.pose[:3, 3], shift)
-        document.add(surface, _Placement(scan.pose, center, shift), texture)
+        pose, center = surface.pose, surface.center
+        shift = origin_shift(pose[:3, :3] @ center + pose[:3, 3], shift)
+        document.add(surface, _Placement(pose, center, shift), texture)
     if cancelled and cancelled():
         raise Cancelled
     with written_atomically(path) as temporary, temporary.open("wb") as file:
@@ -168,18 +167,18 @@ class _Document:
             attributes[f"_{name.upper()}"] = self._accessor(surface.vertex_count, "SCALAR")
         shared = {"attributes": attributes, "material": len(self._materials)}
         primitives = []
-        for mode, count in ((_TRIANGLES, 6 * surface.face_count), (_POINTS, loose)):
+        for mode, count in ((_TRIANGLES, 3 * surface.triangle_count), (_POINTS, loose)):
             if count:
                 indices = self._accessor(count, "SCALAR", _INDEX, _ELEMENTS)
                 primitives.append({**shared, "indices": indices, "mode": mode})
         self._writers.append((surface, placement, attributes, [primitive["indices"] for primitive in primitives]))
-        rows, columns = surface.scan.shape
-        node = {"name": surface.scan.name, "mesh": len(self._meshes), "translation": placement.translation}
+        rows, columns = surface.shape
+        node = {"name": surface.name, "mesh": len(self._meshes), "translation": placement.translation}
         if placement.rotation[:3] != [0, 0, 0]:
             node["rotation"] = placement.rotation
         self._nodes.append({**node, "extras": {"reflcolor_rows": rows, "reflcolor_columns": columns}})
-        self._meshes.append({"name": surface.scan.name, "primitives": primitives})
-        self._materials.append(self._material(surface.scan.name, texture))
+        self._meshes.append({"name": surface.name, "primitives": primitives})
+        self._materials.append(self._material(surface.name, texture))
         self._shift = placement.shift
 
     def write(self, file, tell):
@@ -280,7 +279,7 @@ def _put_vertices(surface, placement, attributes, put):
 
 def _put_faces(surface, placement, indices, put):
     indices = list(indices)
-    if surface.face_count:
+    if surface.triangle_count:
         accessor = indices.pop(0)
         for triangles in surface.triangle_blocks():
             put(accessor, (triangles[:, ::-1] if placement.mirrored else triangles).astype("<u4"))

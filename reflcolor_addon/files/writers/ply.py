@@ -19,7 +19,7 @@ def write_ply(surfaces, path, *, progress=None, cancelled=None):
 
     Parameters
     ----------
-    surfaces : sequence of ScanSurface
+    surfaces : sequence of ScanSurface or MeshSurface
     path : path-like
     progress : callable, optional
         Called as ``progress(fraction, text)``.
@@ -60,11 +60,11 @@ def write_ply(surfaces, path, *, progress=None, cancelled=None):
         file.write(_header(surfaces, types, vertices, faces))
         for index, surface in enumerate(surfaces):
             for block in surface.vertex_blocks():
-                written(file, _vertex_table(surface.scan.pose, block, types, index))
+                written(file, _vertex_table(surface.pose, block, types, index))
         first = 0
         for surface in surfaces:
-            for quads in surface.face_blocks():
-                written(file, _face_table(quads, first))
+            for faces in surface.face_blocks():
+                written(file, _face_table(faces, first))
             first += surface.vertex_count
 
 
@@ -76,9 +76,9 @@ def _header(surfaces, types, vertices, faces):
         "comment World coordinates in metres, Z up; colors are sRGB; no vertex is there twice",
     ]
     for index, surface in enumerate(surfaces):
-        rows, columns = surface.scan.shape
-        lines.append(f"comment scan {index}: {rows} rows x {columns} columns: {_ascii(surface.scan.name)}")
-        pose = " ".join(repr(float(number)) for number in surface.scan.pose.ravel())
+        rows, columns = surface.shape
+        lines.append(f"comment scan {index}: {rows} rows x {columns} columns: {_ascii(surface.name)}")
+        pose = " ".join(repr(float(number)) for number in surface.pose.ravel())
         lines.append(f"comment pose of scan {index}, scanner to world, row by row: {pose}")
     lines.append(f"element vertex {vertices}")
     lines += [f"property double {axis}" for axis in "xyz"]
@@ -106,8 +106,9 @@ def _vertex_table(pose, block, types, index):
     return table
 
 
-def _face_table(quads, first):
-    table = np.empty(len(quads), [("count", "u1"), ("vertices", "<i4", 4)])
-    table["count"], table["vertices"] = 4, quads
+def _face_table(faces, first):
+    corners = faces.shape[1]
+    table = np.empty(len(faces), [("count", "u1"), ("vertices", "<i4", corners)])
+    table["count"], table["vertices"] = corners, faces
     table["vertices"] += first
     return table
