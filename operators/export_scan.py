@@ -66,7 +66,7 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
         if suffix == ".usd":
             for obj in objects:
                 if reason := polls.closed_mesh(obj):
-                    raise ScanError("{object}: {reason}", object=obj.name, reason=reason)
+                    raise ScanError("{object}: cannot be exported ({reason})", object=obj.name, reason=reason)
             # Blender's own exporter, which no thread may call: it is `finish` that does it.
             return lambda _progress, _cancelled: path
         surfaces = [surface_of_object(context, obj) for obj in objects]

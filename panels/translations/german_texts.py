@@ -102,7 +102,7 @@ _REPORTS = {
     "{file}: the suffix tells what to write; expected one of {known}": (
         "{file}: die Endung sagt, was geschrieben wird; erwartet: eine von {known}"
     ),
-    "{object}: {reason}": "{object}: {reason}",
+    "{object}: cannot be exported ({reason})": "{object}: kann nicht exportiert werden ({reason})",
     "Found seeds for {count} scans: {counts}": "Saatpunkte für {count} Scans gefunden: {counts}",
     "Found {count} seeds for {name}": "{count} Saatpunkte für {name} gefunden",
     "Imported {name}": "{name} importiert",
