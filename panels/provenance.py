@@ -3,23 +3,15 @@
 from functools import lru_cache
 from pathlib import PurePath
 
-from bpy.app.translations import pgettext_n as n_
-
 from ..operators.scene.provenance import provenance_text
 from ..operators.scene.scan_object import COLORIZED
 from ..operators.scene.texts import label, shown
 from ..reflcolor_addon.errors import ReflcolorError
 from ..reflcolor_addon.report.provenance import outline, parse_provenance
+from ..reflcolor_addon.seeds.sources import EVIDENCE
 from .step import Step, in_view
 
 _ICONS = {"scan": "MESH_GRID", "seeds": "FILE_TEXT", "photo": "IMAGE_DATA"}
-_SOURCES = {
-    "photo": n_("{count} seeds picked in a photo"),
-    "hand": n_("{count} seeds with a color given by hand"),
-    "pose": n_("{count} seeds found by a photo's camera"),
-    "homography": n_("{count} seeds found by a photo's homography"),
-    "appearance": n_("{count} seeds found by likeness"),
-}
 _INPUTS_SHOWN = 6
 _HASH_DIGITS = 12
 
@@ -51,7 +43,7 @@ def _draw(layout, found):
     column = layout.column(align=True)
     column.label(text="Evidence", icon="CHECKMARK")
     for source, count in found.sources.items():
-        column.label(text=label(_SOURCES[source], count=count), icon="BLANK1", translate=False)
+        column.label(text=label(EVIDENCE[source].counted, count=count), icon="BLANK1", translate=False)
     column = layout.column(align=True)
     column.label(text="Inference", icon="OUTLINER_DATA_LIGHTPROBE")
     column.label(text=label("{count} pixels colored from them", count=found.inferred), icon="BLANK1", translate=False)

@@ -14,7 +14,7 @@ from reflcolor_addon.color import colorspaces
 from reflcolor_addon.files import memory
 from reflcolor_addon.geodesic import kernel
 from reflcolor_addon.geodesic.blending import Blend
-from reflcolor_addon.geodesic.distances import geodesic_distances
+from reflcolor_addon.geodesic.distances import distances_over
 from reflcolor_addon.geodesic.engines import engine_for
 from reflcolor_addon.geodesic.graph import PixelGraph
 from reflcolor_addon.scan.normalization import normalize
@@ -83,7 +83,7 @@ def test_distances_equal_the_reference(grid, data, beta, neighbors, wrap):
     graph = PixelGraph(
         luminance=luminance, range_image=range_image, valid=valid, beta=beta, neighbors=neighbors, wrap=wrap
     )
-    for distance, row, col in zip(geodesic_distances(graph, rows, cols), rows, cols, strict=True):
+    for distance, row, col in zip(distances_over(graph, rows, cols), rows, cols, strict=True):
         expected = reference_distances(
             luminance, range_image, valid, (row, col), beta=beta, neighbors=neighbors, wrap=wrap
         )
@@ -161,7 +161,7 @@ def test_on_a_line_the_blend_is_the_closed_form():
     # Steps of 1 and of 2 gray levels between the seeds at the ends: r = 1 and 2 in the middle.
     luminance = np.array([[10.0, 11.0, 13.0]], np.float32)
     graph = PixelGraph(luminance=luminance, range_image=np.zeros((1, 3)), valid=np.ones((1, 3), bool))
-    fields = geodesic_distances(graph, [0, 0], [0, 2])
+    fields = distances_over(graph, [0, 0], [0, 2])
     assert fields.tolist() == [[[0, 1, 3]], [[3, 2, 0]]]
     blend = engine_for(graph).blend(6.0)
     blend.add(fields[0], (64.0, 0.0))
@@ -175,7 +175,7 @@ def test_a_range_jump_makes_the_step_longer_and_beta_0_leaves_it_out():
     luminance, ranges = np.array([[0.0, 2.0]], np.float32), np.array([[0.0, 5.0]], np.float32)
     for beta, expected in ((0.0, 2.0), (1.0, (25 + 1) * 2.0), (0.5, (12.5 + 1) * 2.0)):
         graph = PixelGraph(luminance=luminance, range_image=ranges, valid=np.ones((1, 2), bool), beta=beta)
-        assert geodesic_distances(graph, [0], [0])[0, 0, 1] == expected
+        assert distances_over(graph, [0], [0])[0, 0, 1] == expected
 
 
 def test_a_seed_keeps_its_chrominance():
@@ -290,7 +290,7 @@ def test_the_nearest_seeds_differ_from_all_by_no_more_than_the_bound(data, grid,
     engine = engine_for(graph)
     pixels = np.ravel_multi_index((rows, cols), valid.shape)
     mean, bound, _ = engine.nearest(pixels, colors, alpha, min(k, rows.size), engine.control())
-    expected = reference_blend(geodesic_distances(graph, rows, cols), colors, alpha)
+    expected = reference_blend(distances_over(graph, rows, cols), colors, alpha)
     reached = np.isfinite(mean.least)
     assert (reached == ~np.isnan(expected[..., 0])).all()
     off = np.abs(np.moveaxis(mean.chroma, 0, -1) - expected).max(axis=-1)[reached]

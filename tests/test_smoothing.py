@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from reflcolor_addon.color.smoothing import smooth
+from reflcolor_addon.geodesic.smoothing import smooth
 
 images = hnp.arrays(
     np.float32, hnp.array_shapes(min_dims=2, max_dims=2, max_side=12), elements=st.floats(0, 255, width=32)

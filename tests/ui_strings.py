@@ -5,6 +5,8 @@ from pathlib import Path
 
 from blender_session import EXTENSION
 
+from reflcolor_addon.seeds.sources import EVIDENCE
+
 ROOT = Path(__file__).resolve().parent.parent
 ANY, OPERATOR = "*", "Operator"
 # What takes a text to look up as its first argument.
@@ -79,8 +81,8 @@ def _is_ours(cls):
 
 
 def source_strings():
-    """The texts in the sources of operators and panels."""
-    found = set()
+    """The texts in the sources of operators and panels, and those of the core that panels look up."""
+    found = {(ANY, source.counted) for source in EVIDENCE.values()}
     for folder in ("operators", "panels"):
         for path in (ROOT / folder).rglob("*.py"):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -12,10 +12,10 @@ import numpy as np
 
 from reflcolor_addon.color import colorspaces, kriging
 from reflcolor_addon.color.evaluation import evaluate
-from reflcolor_addon.color.smoothing import smooth
 from reflcolor_addon.geodesic.blending import left_out
 from reflcolor_addon.geodesic.engines import engine_for
 from reflcolor_addon.geodesic.graph import PixelGraph
+from reflcolor_addon.geodesic.smoothing import smooth
 from reflcolor_addon.scan.normalization import normalize
 from reflcolor_addon.scan.normals import surface_normals
 from reflcolor_addon.settings import Settings

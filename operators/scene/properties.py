@@ -12,6 +12,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from ...reflcolor_addon.seeds.sources import SOURCES
 from .editors import redraw_editors, select_only
 from .notices import ReflcolorNotice
 from .picture_material import LIT, UNLIT
@@ -55,12 +56,7 @@ class ReflcolorSeed(bpy.types.PropertyGroup):
     reason: EnumProperty(
         name="Found By",
         description="How the seed came by its color",
-        items=(
-            ("hand", "Hand", "Picked by a person"),
-            ("pose", "Camera", "Where a photo's verified camera saw the pixel"),
-            ("homography", "Homography", "Where a verified photo shows the pixel"),
-            ("appearance", "Appearance", "By likeness with what a photo shows"),
-        ),
+        items=tuple((source.name, source.label, source.help) for source in SOURCES.values()),
     )
     confidence: FloatProperty(
         name="Confidence", description="How sure the color is", subtype="FACTOR", default=1, min=0, max=1

@@ -12,13 +12,13 @@ import bpy
 
 from ...reflcolor_addon.report.provenance import parse_provenance
 from ...reflcolor_addon.report.report import build_report, input_entry, photo_entry, stamped
+from ...reflcolor_addon.seeds.sources import FOUND
 
 PROVENANCE = "reflcolor_provenance"
 # On objects: the scan as it was imported, files of seeds, the last search for seeds. On images: the photo's file.
 _IMPORTED, _SEEDS_FILES, _MATCHED, _PHOTO = (
     f"reflcolor_{name}" for name in ("import", "seeds_files", "matching", "photo")
 )
-_FOUND = ("pose", "homography", "appearance")
 
 
 def record_import(obj, scan, inputs, warnings=()):
@@ -98,7 +98,7 @@ def window_report(obj, colorization, settings, given_seeds):
         The seeds before any was moved.
     """
     imported, matched = _read(obj, _IMPORTED), _read(obj, _MATCHED)
-    if not any(reason in _FOUND for reason in given_seeds.reason):
+    if not any(reason in FOUND for reason in given_seeds.reason):
         matched = {}
     photos = [photo["name"] for photo in matched.get("photos", [])]
     photos += [photo for photo in given_seeds.photos if photo is not None]

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from ...reflcolor_addon.seeds.sources import SOURCES
+
 # The choices of a seed's ``reason``, by their numbers.
-FOUND_BY = ("hand", "pose", "homography", "appearance")
+FOUND_BY = tuple(SOURCES)
 
 # Object -> (what was read in bulk, and of how many images; the names of the photos, which cannot be).
 _photo_names = {}

@@ -12,13 +12,13 @@ from ..geodesic.blending import left_out
 from ..geodesic.engines import engine_for
 from ..geodesic.exact import HeldFields, add_fields, awaited
 from ..geodesic.graph import PixelGraph
+from ..geodesic.smoothing import smooth
 from ..messages import Message
 from ..scan.normalization import normalize
 from ..settings import Settings
 from . import colorspaces
 from .colorization import Colorization
 from .kriging import MAX_SEEDS, Kriging, pixel_features, share
-from .smoothing import smooth
 from .tone import tone_to_try, toned
 
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.

@@ -2,18 +2,13 @@
 
 import numpy as np
 
+from ..seeds.sources import SOURCES
 from .scan_image import pixel_steps, toned
 from .superpixels import sized
 
 _HEIGHT = 720
 _GAP = 8
 _MOST_LINES = 250
-_REASON_COLORS = {
-    "pose": (60, 200, 90),
-    "homography": (60, 160, 240),
-    "appearance": (240, 180, 40),
-    "hand": (240, 70, 200),
-}
 _PLAIN = (200, 200, 200)
 
 
@@ -57,7 +52,8 @@ def draw_matches(scan, photos, seeds):
         if name in places and np.isfinite(xy).all() and index % every == 0 and seeds.confidence[index] != 0:
             left, photo = places[name]
             end = (left + xy[0] * _HEIGHT / photo.height, xy[1] * _HEIGHT / photo.height)
-            color = _REASON_COLORS.get(seeds.reason[index], _PLAIN)
+            source = SOURCES.get(seeds.reason[index])
+            color = _PLAIN if source is None else source.color
             cv2.line(canvas, _whole(start), _whole(end), color, 1, cv2.LINE_AA)
             cv2.circle(canvas, _whole(end), 3, color, -1, cv2.LINE_AA)
     for start, rgb in zip(starts, seeds.rgb.tolist(), strict=True):

@@ -5,10 +5,8 @@ from collections import Counter
 from dataclasses import dataclass
 
 from ..errors import ReflcolorError
+from ..seeds.sources import EVIDENCE, HAND, IN_PHOTO
 from .report import FORMAT, VERSION
-
-SOURCES = ("photo", "hand", "pose", "homography", "appearance")
-"""Where a seed's color is from: a point of a photo picked by a person, a color given by one, or found in a photo."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +20,7 @@ class Provenance:
     inputs : tuple of (role, path, sha256)
         ``sha256`` is None where the file was not seen.
     sources : dict
-        Seeds by source, in the order of ``SOURCES``, those that occur. They are the evidence.
+        Seeds by source, in the order of ``EVIDENCE``, those that occur. They are the evidence.
     inferred : int
         Pixels whose color was spread from the seeds.
     unreached : int
@@ -91,7 +89,7 @@ def outline(report):
         return Provenance(
             created=str(report.get("created", "")),
             inputs=tuple((entry["role"], entry["path"], entry["sha256"]) for entry in report["inputs"]),
-            sources={source: found[source] for source in SOURCES if found[source]},
+            sources={source: found[source] for source in EVIDENCE if found[source]},
             inferred=report["result"]["colored"] - evidence,
             unreached=report["result"]["unreached"],
             versions={name: report["versions"][name] for name in ("reflcolor", "blender") if report["versions"][name]},
@@ -101,6 +99,6 @@ def outline(report):
 
 
 def _source(seed):
-    if seed["reason"] in (None, "hand"):
-        return "hand" if seed["photo"] is None else "photo"
+    if seed["reason"] in (None, HAND):
+        return HAND if seed["photo"] is None else IN_PHOTO
     return seed["reason"]

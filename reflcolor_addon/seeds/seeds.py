@@ -13,13 +13,13 @@ from ..errors import SeedsError
 from ..files.atomic import written_atomically
 from ..files.images import read_image
 from ..messages import Message
+from .sources import SOURCES
 
 FORMAT = "reflcolor-seeds"
 VERSION = 1
 # From so many seeds on pixels without a return on it is asked whether they belong to the scan.
 _MANY_MOVED = 5
 _KEYS = ("row", "col", "rgb", "photo", "x", "y", "confidence", "reason")
-REASONS = ("pose", "homography", "appearance", "hand")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +81,9 @@ class Seeds:
         object.__setattr__(self, "photos", photos)
         if len(reason) != count:
             raise SeedsError(f"seeds: {len(reason)} reasons for {count} seeds")
-        unknown = set(reason) - {None, *REASONS}
+        unknown = set(reason) - {None, *SOURCES}
         if unknown:
-            raise SeedsError(f"seeds: reason: expected one of {', '.join(REASONS)}, found {sorted(unknown)[0]!r}")
+            raise SeedsError(f"seeds: reason: expected one of {', '.join(SOURCES)}, found {sorted(unknown)[0]!r}")
         object.__setattr__(self, "reason", reason)
 
     def __len__(self):
@@ -341,8 +341,8 @@ class _SeedsFile:
             raise SeedsError(f"{where}: expected a color: either rgb, or photo with x and y")
         confidence = float(self._number(where, entry, "confidence", Real)) if "confidence" in entry else math.nan
         reason = entry.get("reason")
-        if reason is not None and reason not in REASONS:
-            raise SeedsError(f"{where}: reason: expected one of {', '.join(REASONS)}, found {reprlib.repr(reason)}")
+        if reason is not None and reason not in SOURCES:
+            raise SeedsError(f"{where}: reason: expected one of {', '.join(SOURCES)}, found {reprlib.repr(reason)}")
         return row, col, rgb, photo, xy, confidence, reason
 
     def _number(self, where, entry, key, kind):

@@ -6,19 +6,13 @@ from pathlib import Path
 from ...batch.blender_tasks import require_blender
 from ...errors import ReflcolorError, UsageError
 from ...report.provenance import outline, parse_provenance
+from ...seeds.sources import EVIDENCE
 
 NAME = "provenance"
 HELP = "say where the colors in a .blend are from (in Blender)"
 FORMAT = "reflcolor-provenance"
 VERSION = 1
 _NONE = "has no provenance: it was not colorized, or before provenance was kept, or somebody removed it"
-_SOURCES = {
-    "photo": "picked in a photo",
-    "hand": "color given by hand",
-    "pose": "found by a photo's camera",
-    "homography": "found by a photo's homography",
-    "appearance": "found by likeness",
-}
 
 
 def add_arguments(parser):
@@ -85,7 +79,7 @@ def _entries(report, found):
         ("colorized", [found.created.replace("T", " ").replace("Z", " UTC")] if found.created else []),
         ("scan", [f"{scan['name']}{place}", _size(scan)]),
         ("result", [f"{report['result']['colored']} pixels colored, {found.unreached} left gray"]),
-        ("seeds", [f"{count} {source}: {_SOURCES[source]}" for source, count in found.sources.items()]),
+        ("seeds", [f"{count} {source}: {EVIDENCE[source].said}" for source, count in found.sources.items()]),
         ("photos", [f"{photo['name']}: {photo['note']}" for photo in report["photos"]]),
         ("settings", [f"{name} {'all' if value is None else value}" for name, value in report["settings"].items()]),
         (
