@@ -160,7 +160,7 @@ def test_the_command_prints_it_from_a_file(colorized, blender_command, tmp_path)
 def test_how_seeds_were_found_is_told_while_such_seeds_are_there(colorized):
     provenance = importlib.import_module(f"{EXTENSION}.operators.scene.provenance")
     obj = colorized.context.active_object
-    match = SimpleNamespace(name="view.png", verified=True, reason="pose", note="verified: 90 % agree")
+    match = SimpleNamespace(name="view.png", verified=True, tested=True, reason="pose", note="verified: 90 % agree")
     provenance.record_matching(obj, SimpleNamespace(photos=[match]), Settings(slic_segments=77), ("slic_segments",))
     colorized.ops.reflcolor.colorize()
     assert report(colorized)["photos"] == [] and report(colorized)["settings"]["slic_segments"] == 500
