@@ -89,7 +89,7 @@ def bounds(quick):
         graph, cells, beyond = kernel.Graph(*cases.images_of(scan)), [], 0
         for k in AUTO_NEAREST:
             mean, bound = kernel.nearest(graph, pixels, k).blend(colors, 6.0)
-            truth = np.abs(mean.chroma - every.chroma).max(axis=0)
+            truth = np.abs(mean.values - every.values).max(axis=0)
             # Half of a hundredth of a level is for the rounding of sums of this many seeds.
             beyond += np.count_nonzero(truth > bound + 0.005)
             for values in (bound[scan.valid] * levels, truth[scan.valid] * levels):

@@ -9,7 +9,7 @@ from .presets import REFLCOLOR_PT_colorize_presets
 from .step import Step, draw_selected, in_both_editors, in_view
 
 # What is shown at once; all other settings are under Advanced.
-_FIRST = ("alpha", "beta", "tone")
+_FIRST = ("light", "alpha", "beta", "tone")
 
 
 class Colorize(Step):

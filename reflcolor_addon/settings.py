@@ -108,6 +108,16 @@ class Settings:
         label="Kriging",
         help="Share of a statistical estimate from position, surface and reflectance; not in the paper",
     )
+    light: float = setting(
+        0.0,
+        group=PROPAGATION,
+        kind=float,
+        low=0,
+        high=1,
+        unit="share",
+        label="Light",
+        help="How light the colors are: 0 as the reflectance, which has no shadows; 1 as the photo; not in the paper",
+    )
     tone: float = setting(
         1.0,
         group=PROPAGATION,
@@ -116,7 +126,7 @@ class Settings:
         high=5,
         slider_step=0.1,
         label="Tone",
-        help="Above 1 the colors are lighter, below 1 darker; 1 is as light as the reflectance",
+        help="Above 1 the colors are lighter, below 1 darker; 1 leaves them as Light makes them",
         # How light the colors are is the scan's matter, not the method's.
         in_presets=False,
     )
@@ -209,7 +219,7 @@ class Settings:
 
     @classmethod
     def preset(cls, name, **changes):
-        """Return the settings of that name ("Paper" or "Enhanced"), with the given changes.
+        """Return the settings of that name, one of `PRESETS`, with the given changes.
 
         Raises
         ------
@@ -251,12 +261,17 @@ class Preset:
     values: dict
 
 
+_ENHANCED = {"alpha": 3.0, "nearest": 8, "smoothing": 1.0, "kriging": 0.6}
 PRESETS = {
-    "Paper": Preset("The method as published", {}),
+    "Natural": Preset(
+        "As Enhanced, and as light as the photo: light and dark are spread from the seeds, too",
+        _ENHANCED | {"light": 1.0},
+    ),
     "Enhanced": Preset(
         "What measured best on real scans: smoothed reflectance, fewer seeds per pixel, kriging",
-        {"alpha": 3.0, "nearest": 8, "smoothing": 1.0, "kriging": 0.6},
+        _ENHANCED,
     ),
+    "Paper": Preset("The method as published", {}),
 }
 DEFAULT_PRESET = "Paper"
 """Where the window and the command line start from."""

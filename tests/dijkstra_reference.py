@@ -72,11 +72,11 @@ def reference_blend(distances, chrominance, alpha):
 
     Returns
     -------
-    (H, W, 2) float64
+    (H, W, C) float64
         c_i; NaN where no seed reaches.
     """
     count, height, width = distances.shape
-    blended = np.full((height, width, 2), math.nan)
+    blended = np.full((height, width, np.shape(chrominance)[1]), math.nan)
     for row in range(height):
         for col in range(width):
             r = [float(distances[j, row, col]) for j in range(count)]
@@ -87,7 +87,7 @@ def reference_blend(distances, chrominance, alpha):
                 w = [1.0 if r_j == 0 else 0.0 for r_j in r]  # seeds at no distance share the pixel
             else:
                 w = [(r_j / least) ** -alpha if math.isfinite(r_j) else 0.0 for r_j in r]  # eq. 2 over r_min^-alpha
-            for channel in range(2):
+            for channel in range(blended.shape[-1]):
                 c = [w_j * float(c_j[channel]) for w_j, c_j in zip(w, chrominance, strict=True)]
                 blended[row, col, channel] = math.fsum(c) / math.fsum(w)  # eq. 1
     return blended

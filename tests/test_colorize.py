@@ -110,8 +110,8 @@ def test_the_blend_equals_the_reference_whatever_the_distances(fields, alpha):
     expected = reference_blend(fields, colors, alpha)
     reached = np.isfinite(fields).any(axis=0)
     mean = blend.mean()
-    np.testing.assert_allclose(mean.chroma[:, reached].T, expected[reached], rtol=1e-6, atol=1e-5)
-    assert (mean.chroma[:, ~reached] == 0).all()
+    np.testing.assert_allclose(mean.values[:, reached].T, expected[reached], rtol=1e-6, atol=1e-5)
+    assert (mean.values[:, ~reached] == 0).all()
     assert (mean.least == fields.min(axis=0).astype(np.float32)).all()
     assert (mean.nearest_seed == np.where(reached, fields.argmin(axis=0), -1)).all()
 
@@ -166,7 +166,7 @@ def test_on_a_line_the_blend_is_the_closed_form():
     blend = engine_for(graph).blend(6.0)
     blend.add(fields[0], (64.0, 0.0))
     blend.add(fields[1], (0.0, 64.0))
-    chroma = blend.mean().chroma[:, 0]
+    chroma = blend.mean().values[:, 0]
     assert chroma[:, 1] == pytest.approx([64 * 64 / 65, 64 / 65])
     assert chroma[:, [0, 2]].T.tolist() == [[64, 0], [0, 64]]
 
@@ -293,7 +293,7 @@ def test_the_nearest_seeds_differ_from_all_by_no_more_than_the_bound(data, grid,
     expected = reference_blend(distances_over(graph, rows, cols), colors, alpha)
     reached = np.isfinite(mean.least)
     assert (reached == ~np.isnan(expected[..., 0])).all()
-    off = np.abs(np.moveaxis(mean.chroma, 0, -1) - expected).max(axis=-1)[reached]
+    off = np.abs(np.moveaxis(mean.values, 0, -1) - expected).max(axis=-1)[reached]
     assert (off <= bound[reached] + 2e-3).all()
     if k >= rows.size:
         assert (bound == 0).all()

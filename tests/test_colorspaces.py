@@ -53,6 +53,11 @@ def test_a_color_parted_and_joined_is_the_same_color(space):
 
 
 @every_space
+def test_the_luminance_of_a_color_is_the_gray_that_has_the_same(space):
+    np.testing.assert_allclose(colorspaces.luminance(CUBE, space), luminance_as_gray(CUBE, space), atol=0.02)
+
+
+@every_space
 @given(colors=arrays(np.uint8, (1, 5, 3)))
 def test_any_color_parted_and_joined_is_the_same_color(space, colors):
     gray, chrominance = luminance_as_gray(colors.astype(float), space), colorspaces.chrominance(colors, space)

@@ -43,10 +43,10 @@ def test_null_pointers_are_refused_by_a_code(library):
     assert library.rc_field(graph, 1, None, None, None, None) == -1
     assert library.rc_nearest(graph, 1, None, 1, None, None) == -1
     assert library.rc_graph_fill(2, 2, 0, None, 2, None, 2, None, 2, None, None, None) == -1
-    assert library.rc_blend_add(2, 2, None, 2, 6.0, 0, 0.0, 0.0, *[None] * 6) == -1
-    assert library.rc_blend_finish(4, None, None, None) == -1
-    assert library.rc_blend_nearest(None, 0, 2, 1, None, 1, None, 6.0, *[None] * 6) == -1
-    assert library.rc_blend_nearest(graph, 0, 2, 1, None, 1, None, 6.0, *[None] * 6) == -1
+    assert library.rc_blend_add(2, 2, None, 2, 6.0, 0, 2, *[None] * 5, 4, None) == -1
+    assert library.rc_blend_finish(4, None, 2, None, 4) == -1
+    assert library.rc_blend_nearest(None, 0, 2, 1, None, 1, 2, None, 6.0, *[None] * 5) == -1
+    assert library.rc_blend_nearest(graph, 0, 2, 1, None, 1, 2, None, 6.0, *[None] * 5) == -1
     assert library.rc_kriging(1, None, 1, None, 2, None, None, None) == -1
 
 
@@ -54,6 +54,10 @@ def test_a_number_of_channels_that_is_none_or_too_large_is_refused_by_a_code(lib
     numbers = np.zeros(8, np.float32).ctypes.data
     for pixels, count, channels in ((0, 1, 2), (1, 0, 2), (1, 1, 0), (1, 1, 5), (-1, 1, 2), (1, -(2**62), 2)):
         assert library.rc_kriging(pixels, numbers, count, numbers, channels, numbers, numbers, None) == -2
+    for channels in (0, 5):
+        blended = 1, 1, numbers, 1, 6.0, 0, channels, *[numbers] * 5, 1, None
+        assert library.rc_blend_add(*blended) == -2
+        assert library.rc_blend_finish(1, numbers, channels, numbers, 1) == -2
 
 
 def test_a_seed_count_that_is_no_count_is_refused_by_a_code(library):

@@ -89,6 +89,14 @@ def test_a_wish_makes_the_ones_before_it_void(started):
     assert found[-1].rgb is not None and live.latest == number
 
 
+def test_the_coarse_colors_are_as_light_as_the_full_ones(started):
+    scan = _scan((240, 320))
+    live = started(lambda: scan)
+    coarse, full = _results(live, live.wish(SEEDS, Settings.preset("Natural")))
+    assert coarse.colorization is None and full.colorization is not None
+    assert np.abs(coarse.rgb.astype(int) - full.rgb).mean() < 6
+
+
 def test_without_seeds_the_scan_is_gray(started):
     scan = _scan((20, 30))
     live = started(lambda: scan)

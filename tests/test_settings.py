@@ -63,7 +63,7 @@ def test_a_preset_takes_changes():
 
 
 def test_an_unknown_preset_is_refused_with_the_names_there_are():
-    with pytest.raises(SettingsError, match=r"preset: expected one of Paper\b.*found 'paper'"):
+    with pytest.raises(SettingsError, match=r"preset: expected one of .*\bPaper\b.*found 'paper'"):
         Settings.preset("paper")
 
 

@@ -57,7 +57,7 @@ class Case:
         count = min(nearest, self.pixels.size)
         mean, _, near = engine.nearest(self.pixels, self.colors, alpha, count, engine.control())
         self.reached = np.isfinite(mean.least)
-        return np.moveaxis(mean.chroma, 0, -1), self.colors - left_out(*near, self.colors, alpha)
+        return np.moveaxis(mean.values, 0, -1), self.colors - left_out(*near, self.colors, alpha)
 
     def kriging(self, *, luminance=None, without=(), nuggets=kriging.NUGGETS, outliers=True):
         """Return (H, W, 2) chrominance by kriging, and the residuals of left-out seeds."""

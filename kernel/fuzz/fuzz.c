@@ -111,48 +111,55 @@ static void check_nearest(const rc_graph *g, int64_t count, const int64_t *pixel
         }
         note(list, (size_t)k * 2 * sizeof *list);
     }
-    float *sums = room((size_t)(h * w) * 5 * sizeof *sums), *colors = room((size_t)count * 2 * sizeof *colors);
-    for (int64_t j = 0; j < 2 * count; j++) {
-        colors[j] = (float)below(256);
+    const int32_t channels = 1 + (int32_t)below(RC_MAX_CHANNELS);
+    const size_t planes = 3 + (size_t)channels;
+    float *sums = room((size_t)(h * w) * planes * sizeof *sums);
+    float *values = room((size_t)(count * channels) * sizeof *values);
+    for (int64_t j = 0; j < channels * count; j++) {
+        values[j] = (float)below(256);
     }
     float alpha = (float)below(16);
     alpha /= below(2) ? 1.0f : 3.0f;
     int32_t *index = room((size_t)(h * w) * sizeof *index);
-    expect(rc_blend_nearest(g, 0, h, k, labels, count, colors, alpha, sums, index, sums + h * w, sums + 2 * h * w,
-                            sums + 3 * h * w, sums + 4 * h * w) == RC_OK, "rc_blend_nearest refuses a right call");
+    expect(rc_blend_nearest(g, 0, h, k, labels, count, channels, values, alpha, sums, index, sums + h * w,
+                            sums + 3 * h * w, sums + 2 * h * w) == RC_OK, "rc_blend_nearest refuses a right call");
     for (int64_t i = 0; i < h * w; i++) {
-        expect(sums[4 * h * w + i] >= 0.0f && sums[4 * h * w + i] < 257.0f, "a bound lies beyond the colors");
+        expect(sums[2 * h * w + i] >= 0.0f && sums[2 * h * w + i] < 257.0f, "a bound lies beyond the values");
     }
-    note(sums, (size_t)(h * w) * 5 * sizeof *sums);
+    note(sums, (size_t)(h * w) * planes * sizeof *sums);
     note(index, (size_t)(h * w) * sizeof *index);
     free(sums);
     free(index);
-    free(colors);
+    free(values);
     free(labels);
 }
 
 static void check_blend(int64_t h, int64_t w, int64_t count, const float *fields)
 {
     const size_t n = (size_t)(h * w);
-    float *sums = room(n * 4 * sizeof *sums);
+    const int32_t channels = 1 + (int32_t)below(RC_MAX_CHANNELS);
+    const size_t planes = 2 + (size_t)channels;
+    float *sums = room(n * planes * sizeof *sums);
     int32_t *index = room(n * sizeof *index);
-    for (size_t i = 0; i < n; i++) {
-        sums[i] = INFINITY;
-        sums[n + i] = sums[2 * n + i] = sums[3 * n + i] = 0.0f;
-        index[i] = -1;
+    for (size_t i = 0; i < planes * n; i++) {
+        sums[i] = i < n ? INFINITY : 0.0f;
+        index[i % n] = -1;
     }
     const float alpha = (float)below(40) / 4.0f;
     for (int64_t j = 0; j < count; j++) {
-        const float color0 = (float)below(256), color1 = (float)below(256);
-        expect(rc_blend_add(h, w, fields + j * h * w, w, alpha, (int32_t)j, color0, color1, sums, index, sums + n,
-                            sums + 2 * n, sums + 3 * n, NULL) == RC_OK, "rc_blend_add refuses a right call");
+        float values[RC_MAX_CHANNELS];
+        for (int32_t c = 0; c < channels; c++) {
+            values[c] = (float)below(256);
+        }
+        expect(rc_blend_add(h, w, fields + j * h * w, w, alpha, (int32_t)j, channels, values, sums, index, sums + n,
+                            sums + 2 * n, h * w, NULL) == RC_OK, "rc_blend_add refuses a right call");
     }
-    expect(rc_blend_finish(h * w, sums + n, sums + 2 * n, sums + 3 * n) == RC_OK, "rc_blend_finish refuses");
+    expect(rc_blend_finish(h * w, sums + n, channels, sums + 2 * n, h * w) == RC_OK, "rc_blend_finish refuses");
     for (size_t i = 0; i < n; i++) {
         expect(index[i] < 0 ? isinf(sums[i]) : sums[i] == fields[(size_t)index[i] * n + i], "not the nearest seed");
-        expect(sums[2 * n + i] >= 0.0f && sums[2 * n + i] < 256.0f, "a mean lies beyond the colors");
+        expect(sums[2 * n + i] >= 0.0f && sums[2 * n + i] < 256.0f, "a mean lies beyond the values");
     }
-    note(sums, n * 4 * sizeof *sums);
+    note(sums, n * planes * sizeof *sums);
     note(index, n * sizeof *index);
     free(sums);
     free(index);

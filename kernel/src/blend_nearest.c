@@ -5,37 +5,38 @@
 #include "check.h"
 #include "power.h"
 
-/* Of the tables of the seeds' chrominances. */
+/* Of the tables of the seeds' values. */
 #define RC_BINS 256
 /* Against rounding in their sums. */
 #define RC_RAISED 1.0001f
-/* Chords drawn to find how far a mean can move, and what needs no finer answer, in units of chrominance. */
+/* Chords drawn to find how far a mean can move, and what needs no finer answer, in units of the values. */
 #define RC_CHORDS 3
 #define RC_FINE 0.25f
 
-/* One chrominance of all seeds. At the edges of its bins a table holds the sum, over all seeds, of how far each lies
+/* One channel of all seeds' values. At the edges of its bins a table holds the sum, over all seeds, of how far each lies
  * above, and one of how far it lies below; between edges the chord does not understate it, for such a sum is convex. */
 typedef struct {
     float low, high, bins_per_unit;
     float above[RC_BINS + 1], below[RC_BINS + 1];
 } rc_spread;
 
-static int32_t spread_of(int64_t count, const float *colors, rc_spread *s)
+static int32_t spread_of(int64_t count, const float *values, int32_t channels, rc_spread *s)
 {
     s->low = INFINITY;
     s->high = -INFINITY;
     for (int64_t j = 0; j < count; j++) {
-        if (!isfinite(colors[2 * j])) {
+        const float value = values[channels * j];
+        if (!isfinite(value)) {
             return RC_BAD_VALUE;
         }
-        s->low = colors[2 * j] < s->low ? colors[2 * j] : s->low;
-        s->high = colors[2 * j] > s->high ? colors[2 * j] : s->high;
+        s->low = value < s->low ? value : s->low;
+        s->high = value > s->high ? value : s->high;
     }
     double number[RC_BINS] = {0}, sum[RC_BINS] = {0};
     const double width = ((double)s->high - (double)s->low) / RC_BINS;
     s->bins_per_unit = width > 0.0 ? (float)(1.0 / width) : 0.0f;
     for (int64_t j = 0; j < count; j++) {
-        const double from_low = (double)colors[2 * j] - (double)s->low;
+        const double from_low = (double)values[channels * j] - (double)s->low;
         const int32_t bin = width > 0.0 ? (int32_t)(from_low / width) : 0;
         number[bin < RC_BINS ? bin : RC_BINS - 1]++;
         sum[bin < RC_BINS ? bin : RC_BINS - 1] += from_low;
@@ -112,29 +113,29 @@ static float refined(const rc_side *side, float each, float w)
     return t;
 }
 
-/* The most that the seeds left out, with weights up to `each`, can move either chrominance of a pixel. */
-static float bound_of(const rc_spread *spread, const float *mean, int32_t k, const int32_t *id, const float *colors,
-                      float each, float w)
+/* The most that the seeds left out, with weights up to `each`, can move any channel of a pixel. */
+static inline float bound_of(const rc_spread *spread, const float *mean, int32_t k, const int32_t *id,
+                             int32_t channels, const float *values, float each, float w)
 {
-    rc_side side[4];
+    rc_side side[2 * RC_MAX_CHANNELS];
     int first = 0;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < channels; i++) {
         const float x = (mean[i] - spread[i].low) * spread[i].bins_per_unit;
         float above = chord(spread[i].above, x), below = chord(spread[i].below, x);
         for (int32_t n = 0; n < k; n++) {
-            const float off = colors[2 * id[n] + i] - mean[i];
+            const float off = values[channels * id[n] + i] - mean[i];
             above -= off > 0.0f ? off : 0.0f;
             below += off < 0.0f ? off : 0.0f;
         }
         side[2 * i] = side_of(spread + i, mean[i], 1, above, each, w);
         side[2 * i + 1] = side_of(spread + i, mean[i], 0, below, each, w);
     }
-    for (int i = 1; i < 4; i++) {
+    for (int i = 1; i < 2 * channels; i++) {
         first = side[i].most > side[first].most ? i : first;
     }
     /* Mostly the side that the first chords favor stays ahead of what they tell of the others. */
     float bound = refined(side + first, each, w);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 2 * channels; i++) {
         if (i != first && side[i].most > bound) {
             const float other = refined(side + i, each, w);
             bound = other > bound ? other : bound;
@@ -143,30 +144,36 @@ static float bound_of(const rc_spread *spread, const float *mean, int32_t k, con
     return bound;
 }
 
-int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
-                         int64_t count, const float *colors, float alpha, float *nearest, int32_t *index,
-                         float *weight, float *color0, float *color1, float *bound)
+/* The weights of a pixel's n labels, added up, and the mean that they give of the seeds' values. */
+static inline float mean_of(int32_t n, const int32_t *id, const float *relative, int32_t channels,
+                            const float *values, float *mean)
 {
-    int32_t code = rc_check_graph(graph);
-    if (code != RC_OK) {
-        return code;
+    float w = 0.0f;
+    for (int32_t c = 0; c < channels; c++) {
+        mean[c] = 0.0f;
     }
-    if (!labels || !colors || !nearest || !index || !weight || !color0 || !color1) {
-        return RC_BAD_POINTER;
-    }
-    if (row0 < 0 || row1 < row0 || row1 > graph->height || count < 1 || count > INT32_MAX) {
-        return RC_BAD_SIZE;
-    }
-    if (!(alpha >= 0.0f) || !isfinite(alpha) || k < 1 || k > RC_MAX_NEAREST) {
-        return RC_BAD_VALUE;
-    }
-    rc_spread spread[2];
-    for (int channel = 0; channel < 2; channel++) {
-        code = spread_of(count, colors + channel, spread + channel);
-        if (code != RC_OK) {
-            return code;
+    for (int32_t i = 0; i < n; i++) {
+        w += relative[i];
+        for (int32_t c = 0; c < channels; c++) {
+            mean[c] += relative[i] * values[channels * id[i] + c];
         }
     }
+    for (int32_t c = 0; c < channels; c++) {
+        mean[c] = n ? mean[c] / w : 0.0f;
+    }
+    return w;
+}
+
+typedef struct {
+    float *nearest, *weight, *means, *bound;
+    int64_t channel_stride;
+    int32_t *index;
+} nearest_out;
+
+static inline int32_t blend_rows(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
+                                 int64_t count, int32_t channels, const float *values, const rc_spread *spread,
+                                 float alpha, nearest_out to)
+{
     const rc_power power = rc_power_of(alpha);
     const int64_t width = graph->width;
     for (int64_t row = row0; row < row1; row++) {
@@ -174,7 +181,7 @@ int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int3
             const int64_t p = (row + 1) * (width + 2) + c + 1, out = row * width + c;
             const float *const r = (const float *)labels + p * 2 * k;
             const int32_t *const id = (const int32_t *)labels + p * 2 * k + k;
-            float relative[RC_MAX_NEAREST], w = 0.0f, c0 = 0.0f, c1 = 0.0f;
+            float relative[RC_MAX_NEAREST], mean[RC_MAX_CHANNELS];
             int32_t n = 0;
             const int32_t places = isnan(graph->y[p]) ? 0 : k;
             for (; n < places && id[n] >= 0; n++) {
@@ -184,25 +191,58 @@ int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int3
                 relative[n] = r[n] == r[0] ? 1.0f : r[0] / r[n];
             }
             rc_power_apply(power, relative, n);
-            for (int32_t i = 0; i < n; i++) {
-                w += relative[i];
-                c0 += relative[i] * colors[2 * id[i]];
-                c1 += relative[i] * colors[2 * id[i] + 1];
+            const float w = mean_of(n, id, relative, channels, values, mean);
+            to.nearest[out] = n ? r[0] : INFINITY;
+            to.index[out] = n ? id[0] : -1;
+            to.weight[out] = w;
+            for (int32_t i = 0; i < channels; i++) {
+                to.means[i * to.channel_stride + out] = mean[i];
             }
-            nearest[out] = n ? r[0] : INFINITY;
-            index[out] = n ? id[0] : -1;
-            weight[out] = w;
-            color0[out] = n ? c0 / w : 0.0f;
-            color1[out] = n ? c1 / w : 0.0f;
-            if (bound) {
-                bound[out] = 0.0f;
+            if (to.bound) {
+                to.bound[out] = 0.0f;
                 if (n == k && count > k && relative[k - 1] > 0.0f) {
                     /* Each seed left out lies at least as far as the last one kept. */
-                    const float mean[2] = {color0[out], color1[out]};
-                    bound[out] = bound_of(spread, mean, k, id, colors, relative[k - 1], w);
+                    to.bound[out] = bound_of(spread, mean, k, id, channels, values, relative[k - 1], w);
                 }
             }
         }
     }
     return RC_OK;
+}
+
+int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
+                         int64_t count, int32_t channels, const float *values, float alpha, float *nearest,
+                         int32_t *index, float *weight, float *means, float *bound)
+{
+    int32_t code = rc_check_graph(graph);
+    if (code != RC_OK) {
+        return code;
+    }
+    if (!labels || !values || !nearest || !index || !weight || !means) {
+        return RC_BAD_POINTER;
+    }
+    if (row0 < 0 || row1 < row0 || row1 > graph->height || count < 1 || count > INT32_MAX || channels < 1 ||
+        channels > RC_MAX_CHANNELS) {
+        return RC_BAD_SIZE;
+    }
+    if (!(alpha >= 0.0f) || !isfinite(alpha) || k < 1 || k > RC_MAX_NEAREST) {
+        return RC_BAD_VALUE;
+    }
+    rc_spread spread[RC_MAX_CHANNELS];
+    for (int32_t c = 0; c < channels; c++) {
+        code = spread_of(count, values + c, channels, spread + c);
+        if (code != RC_OK) {
+            return code;
+        }
+    }
+    const nearest_out to = {nearest, weight, means, bound, graph->height * graph->width, index};
+    /* Two are chrominance, three a whole color: the compiler is told, for speed. */
+    switch (channels) {
+    case 2:
+        return blend_rows(graph, row0, row1, k, labels, count, 2, values, spread, alpha, to);
+    case 3:
+        return blend_rows(graph, row0, row1, k, labels, count, 3, values, spread, alpha, to);
+    default:
+        return blend_rows(graph, row0, row1, k, labels, count, channels, values, spread, alpha, to);
+    }
 }

@@ -19,7 +19,7 @@
 #define RC_API __attribute__((visibility("default")))
 #endif
 
-#define RC_ABI_VERSION 3
+#define RC_ABI_VERSION 4
 #define RC_SLACK 8
 #define RC_MAX_NEAREST 1024
 #define RC_FEATURES 8
@@ -77,23 +77,25 @@ RC_API int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *p
                           const rc_control *control);
 
 /* Equation 1, one seed at a time, for a seed that lies `field` away (rows of field_stride floats). The sums are kept
- * relative to the nearest seed so far: weight = sum (r / nearest)^-alpha, color0 and color1 the same with the seed's
- * chrominance. Start: nearest = infinity, index = -1, the rest 0. Add seeds in the same order for the same bits; of
- * equally near ones the first gives the index. A cancelled call leaves some pixels with the seed and some without. */
+ * relative to the nearest seed so far: weight = sum (r / nearest)^-alpha, and of each of 1 to RC_MAX_CHANNELS channels,
+ * `channel_stride` floats apart in `means`, the same with the seed's value. Start: nearest = infinity, index = -1, the
+ * rest 0. Add seeds in the same order for the same bits; of equally near ones the first gives the index. A cancelled
+ * call leaves some pixels with the seed and some without. */
 RC_API int32_t rc_blend_add(int64_t height, int64_t width, const float *field, int64_t field_stride, float alpha,
-                            int32_t seed, float seed_color0, float seed_color1, float *nearest, int32_t *index,
-                            float *weight, float *color0, float *color1, const rc_control *control);
+                            int32_t seed, int32_t channels, const float *values, float *nearest, int32_t *index,
+                            float *weight, float *means, int64_t channel_stride, const rc_control *control);
 
 /* Turn the sums into means, in place; a pixel without weight is left at 0. */
-RC_API int32_t rc_blend_finish(int64_t count, const float *weight, float *color0, float *color1);
+RC_API int32_t rc_blend_finish(int64_t count, const float *weight, int32_t channels, float *means,
+                               int64_t channel_stride);
 
-/* Equation 1 over the k labels of every pixel of one row range [row0, row1) of rc_nearest's result. `colors` holds two
- * floats per seed. `bound` (may be null) receives the most that the seeds left out could change either chrominance by,
- * given that `count` seeds exist. Outputs are height x width, contiguous; a pixel without a label gets the distance
- * infinity, the index -1 and otherwise 0. */
+/* Equation 1 over the k labels of every pixel of one row range [row0, row1) of rc_nearest's result. `values` holds
+ * `channels` floats per seed. `bound` (may be null) receives the most that the seeds left out could change any channel
+ * by, given that `count` seeds exist. Outputs are height x width, contiguous, `means` one such image for each channel;
+ * a pixel without a label gets the distance infinity, the index -1 and otherwise 0. */
 RC_API int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row1, int32_t k, const void *labels,
-                                int64_t count, const float *colors, float alpha, float *nearest, int32_t *index,
-                                float *weight, float *color0, float *color1, float *bound);
+                                int64_t count, int32_t channels, const float *values, float alpha, float *nearest,
+                                int32_t *index, float *weight, float *means, float *bound);
 
 /* For each of `pixels` rows of RC_FEATURES features, the sums over `count` seeds of weight * exp(-distance), distance
  * being that of the features: one sum for each of `channels` (1 to RC_MAX_CHANNELS) weights of a seed. `sums` receives

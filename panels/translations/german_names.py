@@ -114,6 +114,7 @@ _PROPERTIES = {
     "Image": "Bild",
     "Kriging": "Kriging",
     "Left Edge": "Linke Kante",
+    "Light": "Licht",
     "Line": "Linie",
     "Live Preview": "Live-Vorschau",
     "Live Update": "Live-Aktualisierung",

@@ -160,8 +160,8 @@ _LOOKS = {
 }
 
 _SETTINGS = {
-    "Above 1 the colors are lighter, below 1 darker; 1 is as light as the reflectance": (
-        "Über 1 sind die Farben heller, unter 1 dunkler; 1 ist so hell wie die Reflektanz"
+    "Above 1 the colors are lighter, below 1 darker; 1 leaves them as Light makes them": (
+        "Über 1 sind die Farben heller, unter 1 dunkler; 1 lässt sie, wie Licht sie macht"
     ),
     "Whether its camera was found and stood the test": "Ob seine Kamera gefunden wurde und die Prüfung bestand",
     "All seeds where that takes about two seconds, else as many as it takes to be close to that": (
@@ -177,6 +177,13 @@ _SETTINGS = {
     "Colors exactly as they are, without any light": "Farben genau, wie sie sind, ohne jedes Licht",
     "Directions that the descriptor tells apart": "Richtungen, die der Deskriptor unterscheidet",
     "Every seed colors every pixel, as the paper has it": "Jeder Saatpunkt färbt jedes Pixel, wie veröffentlicht",
+    "How light the colors are: 0 as the reflectance, which has no shadows; 1 as the photo; not in the paper": (
+        "Wie hell die Farben sind: 0 wie die Reflektanz, die keine Schatten hat; 1 wie das Foto; "
+        "nicht in der Veröffentlichung"
+    ),
+    "As Enhanced, and as light as the photo: light and dark are spread from the seeds, too": (
+        "Wie Enhanced, und so hell wie das Foto: auch Hell und Dunkel breiten sich von den Saatpunkten aus"
+    ),
     "How fast a seed's influence falls with the geodesic distance; higher makes borders sharper": (
         "Wie schnell der Einfluss eines Saatpunkts mit der geodätischen Entfernung fällt; höher macht Grenzen schärfer"
     ),

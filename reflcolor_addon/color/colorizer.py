@@ -3,6 +3,7 @@
 import os
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +20,8 @@ from ..settings import Settings
 from . import colorspaces
 from .colorization import Colorization
 from .kriging import MAX_SEEDS, Kriging, pixel_features, share
-from .tone import tone_to_try, toned
+from .luminance import CHROMINANCE, channels_of, lightness, seed_values
+from .tone import tone_to_try
 
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
 _HALF_CONFIDENCE = 64.0
@@ -41,12 +43,30 @@ _KRIGING_BYTES = 100
 """What kriging holds at its worst moment, per pixel."""
 
 
+class Spread(NamedTuple):
+    """What spreads from seeds; neither tone nor light changes it."""
+
+    values: np.ndarray
+    """(H, W, C) float32: chrominance, and luminance if it is asked for, as `seed_values` has them."""
+    confidence: np.ndarray
+    """(H, W) float64, 0..1: before it is known what of the color cannot be shown."""
+    nearest_seed: np.ndarray
+    """(H, W) int32: -1 where no seed reaches."""
+    method: dict
+    """As in Colorization."""
+
+    @property
+    def reached(self):
+        """(H, W) bool: where a seed arrives."""
+        return self.nearest_seed >= 0
+
+
 class Colorizer:
     """Colorizes one scan again and again; what did not change is not computed anew.
 
     It holds the scan's graph, the geodesic fields of its seeds, the sums of eq. 1, and what came of them last. A seed
     that is added costs one field; one that is moved, one field and a new sum; one that is removed or recolored, a new
-    sum; another tone, none of these. The result has the same bits as one computed at once.
+    sum; another tone or light, none of these. The result has the same bits as one computed at once.
 
     Parameters
     ----------
@@ -73,7 +93,7 @@ class Colorizer:
         self._median = float(np.median(self._luminance[scan.valid])) if scan.valid.any() else 0.0
         self._range_image, range_limits = normalize(scan.range, scan.valid)
         self._normalization = {"reflectance": reflectance_limits, "range": range_limits}
-        self.settings = self._spread = None
+        self.settings = self._held = None
         self._use(settings or Settings())
 
     @property
@@ -86,12 +106,53 @@ class Colorizer:
         progress = progress or (lambda fraction, text: None)
         cancelled = cancelled or (lambda: False)
         seeds, warnings = seeds.placed_on(self.scan)
+        spread, more = self.spread(seeds, settings, progress=progress, cancelled=cancelled)
+        progress(_COLORED, "Writing the colors")
+        unreached = int(np.count_nonzero(self.scan.valid & ~spread.reached))
+        if unreached:
+            more.append(
+                Message(
+                    "{count} pixels are cut off from every seed and keep their gray; add seeds there", count=unreached
+                )
+            )
+        tone = tone_to_try(self._median, self.settings.tone)
+        if tone is not None and self.settings.light == 0:
+            # First, because a list of warnings may be cut.
+            warnings.insert(
+                0, Message("the colors are dark because most of the reflectance is; try tone {tone:g}", tone=tone)
+            )
+        rgb, lost = self._paint(spread.values, spread.reached, cancelled)
+        progress(1.0, "Colorized")
+        return Colorization(
+            rgb=rgb,
+            confidence=(spread.confidence / (1 + lost / _HALF_CONFIDENCE_LEVELS)).astype(np.float32),
+            nearest_seed=spread.nearest_seed.copy(),
+            seeds=seeds,
+            warnings=(*warnings, *more),
+            normalization=self._normalization,
+            method=dict(spread.method),
+        )
+
+    def spread(self, seeds, settings=None, *, progress=lambda fraction, text: None, cancelled=lambda: False):
+        """Spread the seeds' values, without making colors of them; errors are those of ``colorize``.
+
+        Parameters
+        ----------
+        seeds : Seeds
+            On pixels with a return (see ``Seeds.placed_on``).
+        settings : Settings, optional
+            Those of the last time by default.
+
+        Returns
+        -------
+        Spread
+        list of str
+            Warnings.
+        """
         self._use(settings or self.settings)
         self._require_memory(len(seeds))
         progress(0.0, "Preparing the scan")
-        pixels = np.ravel_multi_index((seeds.rows, seeds.cols), self.scan.shape)
-        chrominance = colorspaces.chrominance(seeds.rgb, self.settings.color_space).astype(np.float32)
-        kriging = self.settings.kriging
+        warnings, kriging = [], self.settings.kriging
         if kriging and len(seeds) > MAX_SEEDS:
             kriging = 0.0
             warnings.append(
@@ -101,42 +162,21 @@ class Colorizer:
                     count=len(seeds),
                 )
             )
-        wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), replace(self.settings, tone=1.0)
-        if self._spread is None or self._spread[0] != wanted:
-            self._spread = None
-            self._spread = wanted, self._spread_from(pixels, chrominance, kriging, progress, cancelled)
-        chroma, confidence, nearest_seed, method = self._spread[1]
+        # Neither the tone nor how much of the seeds' luminance is taken has a part in what is spread.
+        asked = replace(self.settings, tone=1.0, light=float(self.settings.light > 0))
+        wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), asked
+        if self._held is None or self._held[0] != wanted:
+            self._held = None
+            pixels = np.ravel_multi_index((seeds.rows, seeds.cols), self.scan.shape)
+            values = seed_values(seeds.rgb, self.settings)
+            self._held = wanted, self._spread_from(pixels, values, kriging, progress, cancelled)
+        spread = self._held[1]
         if not self._fields.limit:
-            self._spread = None
-        reached = nearest_seed >= 0
-        progress(_COLORED, "Writing the colors")
-        unreached = int(np.count_nonzero(self.scan.valid & ~reached))
-        if unreached:
-            warnings.append(
-                Message(
-                    "{count} pixels are cut off from every seed and keep their gray; add seeds there", count=unreached
-                )
-            )
-        tone = tone_to_try(self._median, self.settings.tone)
-        if tone is not None:
-            # First, because a list of warnings may be cut.
-            warnings.insert(
-                0, Message("the colors are dark because most of the reflectance is; try tone {tone:g}", tone=tone)
-            )
-        rgb, lost = self._paint(chroma, reached, cancelled)
-        progress(1.0, "Colorized")
-        return Colorization(
-            rgb=rgb,
-            confidence=(confidence / (1 + lost / _HALF_CONFIDENCE_LEVELS)).astype(np.float32),
-            nearest_seed=nearest_seed.copy(),
-            seeds=seeds,
-            warnings=tuple(warnings),
-            normalization=self._normalization,
-            method=dict(method),
-        )
+            self._held = None
+        return spread, warnings
 
-    def _spread_from(self, pixels, chrominance, kriging, progress, cancelled):
-        """Return what does not depend on the tone: chrominance, confidence and nearest seed of every pixel, and how."""
+    def _spread_from(self, pixels, values, kriging, progress, cancelled):
+        """Return the Spread of seeds on these pixels."""
         propagated = _PROPAGATED if kriging else _COLORED
         if kriging and self._features is None:
             # Found while the paths are; after a cancellation nobody waits for it.
@@ -144,18 +184,19 @@ class Colorizer:
             self._features = pool.submit(pixel_features, self.scan, self._smoothed)
             pool.shutdown(wait=False)
         mean, method, near = self._propagate(
-            pixels, chrominance, lambda done, text: progress(propagated * done, text), cancelled
+            pixels, values, lambda done, text: progress(propagated * done, text), cancelled
         )
         reached = np.isfinite(mean.least)
-        chroma, confidence = mean.chroma, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
+        spread, confidence = mean.values, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
         if kriging:
-            path_residuals = chrominance - left_out(*near, chrominance, self.settings.alpha)
-            estimate, kriging = self._krige(pixels, chrominance, path_residuals, progress, cancelled)
-            method["kriging"] = kriging
-            levels = np.hypot(*(estimate - chroma)) * colorspaces.levels_per_unit(self.settings.color_space)
-            confidence /= 1 + levels / _HALF_CONFIDENCE_LEVELS
-            chroma = (1 - kriging) * chroma + kriging * estimate
-        return np.moveaxis(chroma, 0, -1), confidence, mean.nearest_seed, method
+            path_residuals = values - left_out(*near, values, self.settings.alpha)
+            estimate, kriging_residuals = self._krige(pixels, values, progress, cancelled)
+            unit = colorspaces.levels_per_unit(self.settings.color_space)
+            confidence /= 1 + np.hypot(*(estimate - spread)[CHROMINANCE]) * unit / _HALF_CONFIDENCE_LEVELS
+            for part, name in zip(channels_of(self.settings), ("kriging", "kriging_of_luminance"), strict=False):
+                method[name] = share(kriging_residuals[:, part], path_residuals[:, part], kriging)
+                spread[part] = (1 - method[name]) * spread[part] + method[name] * estimate[part]
+        return Spread(np.moveaxis(spread, 0, -1), confidence, mean.nearest_seed, method)
 
     def _use(self, settings):
         """Take over settings; what they make void is dropped."""
@@ -195,15 +236,15 @@ class Colorizer:
     def _is_small(self, seeds):
         return seeds * self.scan.valid.size <= AUTO_EXACT_PIXEL_SEEDS or seeds <= AUTO_NEAREST[0]
 
-    def _propagate(self, pixels, chrominance, progress, cancelled):
+    def _propagate(self, pixels, values, progress, cancelled):
         """Return the mean of eq. 1, how it was come by, and what lies near the seeds (see the engine's ``nearest``)."""
         nearest = self.settings.nearest
         method = {"engine": self._engine.name, "note": self._engine.note, "nearest": None}
         if nearest is None or (nearest == "auto" and (self._engine.note or self._is_small(len(pixels)))):
-            mean, near = self._exact(pixels, chrominance, progress, cancelled)
+            mean, near = self._exact(pixels, values, progress, cancelled)
             return mean, method, near
         for k in AUTO_NEAREST if nearest == "auto" else (nearest,):
-            mean, bound, near = self._nearest(pixels, chrominance, min(k, len(pixels)), progress, cancelled)
+            mean, bound, near = self._nearest(pixels, values, min(k, len(pixels)), progress, cancelled)
             levels = colorspaces.levels_per_unit(self.settings.color_space)
             largest, percentile = self._bound_levels(bound, levels)
             method |= {"nearest": k, "bound_levels": {"max": largest, "p99.9": percentile}}
@@ -215,9 +256,9 @@ class Colorizer:
         inside = bound[self.scan.valid]
         return round(float(inside.max()) * levels, 3), round(float(np.percentile(inside, 99.9)) * levels, 3)
 
-    def _exact(self, pixels, chrominance, progress, cancelled):
+    def _exact(self, pixels, values, progress, cancelled):
         """Eq. 1 over all seeds, in their order; fields that are not held are computed in threads, a few ahead."""
-        wanted = list(zip(pixels.tolist(), map(tuple, chrominance.tolist()), strict=True))
+        wanted = list(zip(pixels.tolist(), map(tuple, values.tolist()), strict=True))
         done, near = len(self._blended), None
         if self.settings.kriging and pixels.size <= MAX_SEEDS:
             # Kriging asks how far the seeds are from each other, so every field is seen again.
@@ -226,7 +267,7 @@ class Colorizer:
         if self._blend is None or self._alpha != self.settings.alpha or self._blended != wanted[:done]:
             self._forget_sums()
             self._alpha, done = self.settings.alpha, 0
-            self._blend = self._engine.blend(self._alpha)
+            self._blend = self._engine.blend(self._alpha, values.shape[1])
 
         held = done + sum(self._fields.get(pixel) is not None for pixel, _ in wanted[done:])
         ahead, inside = done, np.count_nonzero(self.scan.valid)
@@ -258,7 +299,7 @@ class Colorizer:
             self._forget_sums()
         return mean, near
 
-    def _nearest(self, pixels, chrominance, k, progress, cancelled):
+    def _nearest(self, pixels, values, k, progress, cancelled):
         control = self._engine.control()
         alpha = self.settings.alpha
 
@@ -267,14 +308,14 @@ class Colorizer:
             progress(min(1, control.done / len(pixels)), text)
 
         with ThreadPoolExecutor(1, "reflcolor") as pool:
-            later = pool.submit(self._engine.nearest, pixels, chrominance, alpha, k, control)
+            later = pool.submit(self._engine.nearest, pixels, values, alpha, k, control)
             try:
                 return awaited(later, control, tell, cancelled)
             except BaseException:
                 control.cancel()
                 raise
 
-    def _paint(self, chroma, reached, cancelled):
+    def _paint(self, values, reached, cancelled):
         """Return the (H, W, 3) uint8 colors and the (H, W) float32 levels of chrominance that they lack."""
         rgb, lost = np.empty((*self.scan.shape, 3), np.uint8), np.empty(self.scan.shape, np.float32)
         rows = max(1, _PAINTED_PIXELS // rgb.shape[1])
@@ -282,14 +323,15 @@ class Colorizer:
             if cancelled():
                 raise Cancelled
             strip = slice(top, top + rows)
-            luminance = toned(self._luminance[strip], self.settings.tone)
-            rgb[strip] = colorspaces.merge(luminance, chroma[strip], self.settings.color_space)
-            lost[strip] = colorspaces.lost_levels(rgb[strip], chroma[strip], self.settings.color_space)
+            luminance = lightness(self._luminance[strip], values[strip], reached[strip], self.settings)
+            chroma = values[strip][..., CHROMINANCE]
+            rgb[strip] = colorspaces.merge(luminance, chroma, self.settings.color_space)
+            lost[strip] = colorspaces.lost_levels(rgb[strip], chroma, self.settings.color_space)
             rgb[strip][~reached[strip]] = np.rint(luminance[~reached[strip]])[:, None]
         return rgb, lost
 
-    def _krige(self, pixels, chrominance, path_residuals, progress, cancelled):
-        """Return the (2, H, W) float32 chrominance estimated by kriging, 0 where not valid, and its share."""
+    def _krige(self, pixels, values, progress, cancelled):
+        """Return the (C, H, W) float32 values estimated by kriging, 0 where not valid, and residuals of the seeds."""
         progress(_PROPAGATED, "Estimating by kriging")
         while not wait([self._features], _POLL_S).done:
             if cancelled():
@@ -298,8 +340,8 @@ class Colorizer:
             failed, self._features = self._features, None
             failed.result()
         features = self._features.result()
-        kriging = Kriging(features[pixels], chrominance)
-        estimate = np.zeros((self.scan.valid.size, 2), np.float32)
+        kriging = Kriging(features[pixels], values, channels_of(self.settings))
+        estimate = np.zeros((self.scan.valid.size, values.shape[1]), np.float32)
         inside = np.flatnonzero(self.scan.valid)
 
         def fill(chunk):
@@ -317,8 +359,8 @@ class Colorizer:
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
-        estimate = np.moveaxis(estimate.reshape(*self.scan.shape, 2), -1, 0)
-        return estimate, share(kriging.residuals, path_residuals, self.settings.kriging)
+        estimate = np.moveaxis(estimate.reshape(*self.scan.shape, -1), -1, 0)
+        return estimate, kriging.residuals
 
 
 def colorize(scan, seeds, settings=None, *, progress=None, cancelled=None):

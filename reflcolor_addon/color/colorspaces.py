@@ -34,6 +34,9 @@ class _DifferenceSpace:
         luma = rgb @ LUMA
         return np.stack([rgb[..., 2] - luma, rgb[..., 0] - luma], axis=-1) * self._gains
 
+    def gray(self, rgb):
+        return np.asarray(rgb, np.float64) @ LUMA
+
     def merge(self, gray, chrominance):
         blue_minus_luma, red_minus_luma = np.moveaxis(np.asarray(chrominance, np.float64) / self._gains, -1, 0)
         gray = np.asarray(gray, np.float64)
@@ -52,6 +55,11 @@ class _LAlphaBeta:
     def chrominance(self, rgb):
         return self._split(rgb)[..., 1:]
 
+    def gray(self, rgb):
+        # A gray has equal cone responses g, and their combination is log10(g) times the first row's sum.
+        lightness = self._split(rgb)[..., 0] / _LMS_TO_LAB[0].sum()
+        return (10**lightness - _FLOOR) / (1 - _FLOOR) * 255
+
     def merge(self, gray, chrominance):
         lightness = self._split(np.repeat(np.asarray(gray, np.float64)[..., None], 3, axis=-1))[..., :1]
         lms = 10 ** (np.concatenate([lightness, chrominance], axis=-1) @ np.linalg.inv(_LMS_TO_LAB).T)
@@ -66,6 +74,13 @@ class _CieLab:
         from skimage.color import rgb2lab
 
         return rgb2lab(np.asarray(rgb, np.float64) / 255)[..., 1:]
+
+    def gray(self, rgb):
+        from skimage.color import lab2rgb, rgb2lab
+
+        lab = rgb2lab(np.asarray(rgb, np.float64) / 255)
+        lab[..., 1:] = 0
+        return lab2rgb(lab)[..., 1] * 255
 
     def merge(self, gray, chrominance):
         from skimage.color import lab2rgb, rgb2lab
@@ -104,6 +119,24 @@ def chrominance(rgb, color_space):
         (0, 0) is neutral gray in every space.
     """
     return _SPACES[color_space].chrominance(rgb)
+
+
+def luminance(rgb, color_space):
+    """Return the luminance of colors, as the gray value that has the same.
+
+    Parameters
+    ----------
+    rgb : (..., 3) array of numbers 0..255
+        sRGB.
+    color_space : str
+        One of ``settings.COLOR_SPACES``.
+
+    Returns
+    -------
+    (...,) float64, 0..255
+        With the chrominance, ``merge`` makes the same color of it.
+    """
+    return _SPACES[color_space].gray(rgb)
 
 
 def merge(gray, chrominance_image, color_space):

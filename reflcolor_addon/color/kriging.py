@@ -1,4 +1,4 @@
-"""Chrominance estimated by kriging: regression on what the scan knows of every pixel.
+"""Colors estimated by kriging: regression on what the scan knows of every pixel.
 
 Surfaces of one material tend to have one color. Two pixels are likely to be of one material if they have a like
 reflectance and a like normal, and lie close together; a path between them, as the geodesic distance asks for, is not
@@ -6,9 +6,10 @@ needed. Ordinary kriging (Matheron 1963; Gaussian process regression with a cons
 
     k(i, j) = exp(-|f_i - f_j|)
 
-as the covariance of chrominance, f being the features below, and estimates m + k(i, .) (K + N)^-1 (c - m). N is a
-diagonal of nuggets: the variance of a seed's color about that of its surroundings, as a share of the whole variance.
-The seeds themselves tell how large it is, because the error of estimating each from all others has a closed form.
+as the covariance of chrominance, and of luminance by itself, f being the features below, and estimates
+m + k(i, .) (K + N)^-1 (c - m). N is a diagonal of nuggets: the variance of a seed's color about that of its
+surroundings, as a share of the whole variance. The seeds themselves tell how large it is, because the error of
+estimating each from all others has a closed form.
 """
 
 import numpy as np
@@ -69,29 +70,34 @@ def pixel_features(scan, luminance):
 
 
 class Kriging:
-    """Fitted to seeds; estimates the chrominance of pixels.
+    """Fitted to seeds; estimates the values of pixels.
 
     Parameters
     ----------
     features : (S, 8) float
         Of the seeds; at most `MAX_SEEDS`.
-    colors : (S, 2) float
-        Their chrominance.
+    values : (S, C) float
+        Their chrominance, and what else is to be estimated.
+    parts : sequence of slice, optional
+        Of the channels; how noisy the seeds are is told apart for each part. By default all channels are one.
     """
 
-    def __init__(self, features, colors):
+    def __init__(self, features, values, parts=(slice(None),)):
         self._features = np.asarray(features, np.float64)
-        colors = np.asarray(colors, np.float64)
+        values = np.asarray(values, np.float64)
         covariance = _covariance(self._features, self._features)
-        groups = _groups(len(colors))
-        nuggets = _nuggets(covariance, colors, groups)
-        weights = np.linalg.solve(covariance + np.diag(nuggets), np.column_stack([np.ones(len(colors)), colors]))
-        self._mean = weights[:, 1:].sum(axis=0) / weights[:, 0].sum()
-        self._weights = weights[:, 1:] - weights[:, :1] * self._mean
-        self.residuals = np.empty_like(colors)
-        """(S, 2): color of each seed, less what is estimated from the others."""
-        for group in groups:
-            self.residuals[group], _ = _residuals(covariance[np.ix_(group, group)], colors[group], nuggets[group])
+        groups = _groups(len(values))
+        self._mean, self._weights = np.empty(values.shape[1]), np.empty_like(values)
+        self.residuals = np.empty_like(values)
+        """(S, C): values of each seed, less what is estimated from the others."""
+        for part, nuggets in zip(parts, _nuggets(covariance, values, groups, parts), strict=True):
+            own = values[:, part]
+            weights = np.linalg.solve(covariance + np.diag(nuggets), np.column_stack([np.ones(len(own)), own]))
+            self._mean[part] = weights[:, 1:].sum(axis=0) / weights[:, 0].sum()
+            self._weights[:, part] = weights[:, 1:] - weights[:, :1] * self._mean[part]
+            for group in groups:
+                among = covariance[np.ix_(group, group)]
+                self.residuals[group, part], _ = _residuals(among, own[group], nuggets[group])
 
     def chunks(self, count):
         """Return slices that part ``count`` pixels so that each part fits well into memory."""
@@ -100,7 +106,7 @@ class Kriging:
         return [slice(start, min(count, start + step)) for start in range(0, count, step)]
 
     def estimate(self, features):
-        """Return the (N, 2) chrominance of pixels with (N, 8) features: float32 by the kernel, else float64.
+        """Return the (N, C) values of pixels with (N, 8) features: float32 by the kernel, else float64.
 
         The two differ by 1e-3 at most (docs/performance.md).
         """
@@ -128,8 +134,8 @@ def share(kriging_residuals, path_residuals, expected):
 
     Parameters
     ----------
-    kriging_residuals, path_residuals : (S, 2) float
-        Color of each seed, less the estimate of either from the others.
+    kriging_residuals, path_residuals : (S, C) float
+        Values of each seed, less the estimate of either from the others.
     expected : float, 0 to 1
         What the share is drawn to, the more so the fewer seeds there are.
     """
@@ -148,25 +154,29 @@ def _groups(count):
     return [np.arange(first, count, number) for first in range(number)]
 
 
-def _nuggets(covariance, colors, groups):
-    """(S,) nuggets: the one of NUGGETS that foretells left-out seeds best, more for seeds that fit badly."""
-    parts = [(covariance[np.ix_(group, group)], colors[group]) for group in groups]
-    trials = [[_residuals(*part, np.full(len(part[1]), nugget)) for part in parts] for nugget in NUGGETS]
-    totals = [sum(np.linalg.norm(residuals, axis=1).sum() for residuals, _ in trial) for trial in trials]
-    best = int(np.argmin(totals))
-    nuggets = np.empty(len(colors))
-    for group, (residuals, precision) in zip(groups, trials[best], strict=True):
-        # Relative to what the covariance alone lets expect.
-        error = np.linalg.norm(residuals, axis=1) * np.sqrt(precision)
-        median = np.median(error)
-        excess = (error / median / _OUTLIER) ** 2 - 1 if median > 0 else np.zeros(len(group))
-        nuggets[group] = NUGGETS[best] + np.clip(_OUTLIER_GAIN * excess, 0, _OUTLIER_LIMIT)
-    return nuggets
+def _nuggets(covariance, values, groups, parts):
+    """For each part of the channels, (S,) nuggets: the one of NUGGETS that foretells left-out seeds best, more for
+    seeds that fit badly."""
+    seen = [(covariance[np.ix_(group, group)], values[group]) for group in groups]
+    trials = [[_residuals(*of, np.full(len(of[1]), nugget)) for of in seen] for nugget in NUGGETS]
+    found = []
+    for part in parts:
+        totals = [sum(np.linalg.norm(off[:, part], axis=1).sum() for off, _ in trial) for trial in trials]
+        best = int(np.argmin(totals))
+        nuggets = np.empty(len(values))
+        for group, (residuals, precision) in zip(groups, trials[best], strict=True):
+            # Relative to what the covariance alone lets expect.
+            error = np.linalg.norm(residuals[:, part], axis=1) * np.sqrt(precision)
+            median = np.median(error)
+            excess = (error / median / _OUTLIER) ** 2 - 1 if median > 0 else np.zeros(len(group))
+            nuggets[group] = NUGGETS[best] + np.clip(_OUTLIER_GAIN * excess, 0, _OUTLIER_LIMIT)
+        found.append(nuggets)
+    return found
 
 
-def _residuals(covariance, colors, nuggets):
-    """(S, 2) colors less what is estimated from the other seeds, and (S,) reciprocal variances of that."""
+def _residuals(covariance, values, nuggets):
+    """(S, C) values less what is estimated from the other seeds, and (S,) reciprocal variances of that."""
     inverse = np.linalg.inv(covariance + np.diag(nuggets))
-    mean = (inverse @ colors).sum(axis=0) / inverse.sum()
+    mean = (inverse @ values).sum(axis=0) / inverse.sum()
     precision = np.diag(inverse)
-    return inverse @ (colors - mean) / precision[:, None], precision
+    return inverse @ (values - mean) / precision[:, None], precision

@@ -8,7 +8,7 @@ import numpy as np
 
 from .kernel import Mean
 
-# Of the tables of the seeds' chrominances, as in the kernel, and how many chords find how far a mean can move.
+# Of the tables of the seeds' values, as in the kernel, and how many chords find how far a mean can move.
 _BINS, _CHORDS, _FINE = 256, 3, 0.25
 _RAISED = 1.0001
 
@@ -20,49 +20,51 @@ class Blend:
     ----------
     shape : (H, W)
     alpha : float
+    channels : int
+        How many values a seed has.
     """
 
-    def __init__(self, shape, alpha):
+    def __init__(self, shape, alpha, channels=2):
         self._alpha = alpha
         self._count = 0
         self._weight = np.zeros(shape)
-        self._sums = np.zeros((2, *shape))
+        self._sums = np.zeros((channels, *shape))
         self._least = np.full(shape, np.inf)
         self._nearest_seed = np.full(shape, -1, np.int32)
 
-    def add(self, distances, color, control=None):
-        """Add a seed: its (H, W) distances, infinite where it does not reach, and its two chrominances."""
+    def add(self, distances, values, control=None):
+        """Add a seed: its (H, W) distances, infinite where it does not reach, and its value in each channel."""
         distances = np.asarray(distances, np.float64)
         nearer = distances < self._least
         farther, least = np.where(nearer, self._least, distances), np.where(nearer, distances, self._least)
         weight = _relative_weight(farther, least, self._alpha)
         own, kept = np.where(nearer, 1.0, weight), np.where(nearer, weight, 1.0)
         self._weight = self._weight * kept + own
-        self._sums = self._sums * kept + own * np.reshape(color, (2, 1, 1))
+        self._sums = self._sums * kept + own * np.reshape(values, (-1, 1, 1))
         self._least = least
         self._nearest_seed[nearer] = self._count
         self._count += 1
 
-    def add_all(self, fields, colors, control=None, run=map):
+    def add_all(self, fields, values, control=None, run=map):
         """Add several seeds."""
-        for distances, color in zip(fields, colors, strict=True):
-            self.add(distances, color)
+        for distances, own in zip(fields, values, strict=True):
+            self.add(distances, own)
 
     def mean(self, keep=True):
         """Return the Mean of the seeds so far; more can be added afterwards, if the sums are kept."""
         reached = np.isfinite(self._least)
-        chroma = np.where(reached, self._sums, 0) / np.where(reached, self._weight, 1)
-        single = (array.astype(np.float32) for array in (chroma, np.where(reached, self._weight, 0), self._least))
-        chroma, weight, least = single
+        means = np.where(reached, self._sums, 0) / np.where(reached, self._weight, 1)
+        single = (array.astype(np.float32) for array in (means, np.where(reached, self._weight, 0), self._least))
+        means, weight, least = single
         return Mean(
-            chroma=chroma,
+            values=means,
             weight=weight,
             nearest_seed=self._nearest_seed.copy() if keep else self._nearest_seed,
             least=least,
         )
 
 
-def blend_nearest(distances, seeds, colors, alpha):
+def blend_nearest(distances, seeds, values, alpha):
     """Take eq. 1 over the k nearest seeds of every pixel.
 
     Parameters
@@ -71,40 +73,40 @@ def blend_nearest(distances, seeds, colors, alpha):
         Ascending; infinite in empty places.
     seeds : (H, W, k) int32
         -1 in empty places.
-    colors : (S, 2) float
-        Chrominance of all seeds.
+    values : (S, C) float
+        What is blended, of all seeds.
     alpha : float
 
     Returns
     -------
     mean : Mean
     bound : (H, W) float32
-        The most by which the seeds left out could change either chrominance, if each lies no nearer than the k-th:
+        The most by which the seeds left out could change any channel, if each lies no nearer than the k-th:
         then each has a weight from 0 to that of the k-th, w_k. If the mean m of weight W moves by t, those beyond
         m + t have pushed it there, W t <= w_k q(t), with q(t) the sum of how far they lie beyond. q is convex, so that
         chords between places where it is known lie above it, and where they meet W t / w_k bounds t.
     """
-    colors = np.asarray(colors, np.float64)
+    values = np.asarray(values, np.float64)
     least = distances[..., 0].astype(np.float64)
     each = distances.astype(np.float64)
     weights = _relative_weight(each, np.broadcast_to(least[..., None], each.shape), alpha)
     total = weights.sum(axis=-1)
     reached = total > 0
-    chroma = np.moveaxis(
-        (weights[..., None] * colors[seeds]).sum(axis=-2) / np.where(reached, total, 1)[..., None], -1, 0
+    means = np.moveaxis(
+        (weights[..., None] * values[seeds]).sum(axis=-2) / np.where(reached, total, 1)[..., None], -1, 0
     )
-    every = seeds.shape[-1] < len(colors)
+    every = seeds.shape[-1] < len(values)
     each = np.where((seeds[..., -1] >= 0) & every, weights[..., -1], 0)
     bound = np.max(
         [
-            _shift(colors[:, i], chroma[i], seeds, np.where(reached, total, 1), each, side)
-            for i in (0, 1)
+            _shift(values[:, i], means[i], seeds, np.where(reached, total, 1), each, side)
+            for i in range(len(means))
             for side in (1, -1)
         ],
         axis=0,
     )
     mean = Mean(
-        chroma=np.where(reached, chroma, 0).astype(np.float32),
+        values=np.where(reached, means, 0).astype(np.float32),
         weight=total.astype(np.float32),
         nearest_seed=seeds[..., 0].copy(),
         least=distances[..., 0].copy(),
@@ -112,13 +114,13 @@ def blend_nearest(distances, seeds, colors, alpha):
     return mean, np.where(reached, bound, 0).astype(np.float32)
 
 
-def _shift(colors, mean, seeds, total, each, side):
+def _shift(values, mean, seeds, total, each, side):
     """How far seeds of weights up to ``each``, but for ``seeds``, can move the mean up (side 1) or down (side -1)."""
-    colors, mean = side * colors, side * mean
-    edges = np.linspace(colors.min(), colors.max(), _BINS + 1)
-    table = _RAISED * np.maximum(colors[:, None] - edges, 0).sum(axis=0)
-    listed = np.where(seeds >= 0, np.maximum(colors[seeds] - mean[..., None], 0), 0).sum(axis=-1)
-    beyond, span = np.interp(mean, edges, table) - listed, colors.max() - mean
+    values, mean = side * values, side * mean
+    edges = np.linspace(values.min(), values.max(), _BINS + 1)
+    table = _RAISED * np.maximum(values[:, None] - edges, 0).sum(axis=0)
+    listed = np.where(seeds >= 0, np.maximum(values[seeds] - mean[..., None], 0), 0).sum(axis=-1)
+    beyond, span = np.interp(mean, edges, table) - listed, values.max() - mean
     moved = (each > 0) & (beyond > 0) & (span > 0)
     beyond, each = np.where(moved, beyond, 1), np.where(moved, each, 1)
     t0, q0, t = np.zeros(mean.shape), beyond, each * beyond / (total + each * beyond / np.where(moved, span, 1))
@@ -135,7 +137,7 @@ def _shift(colors, mean, seeds, total, each, side):
     return np.where(moved, t, 0)
 
 
-def left_out(distances, seeds, colors, alpha):
+def left_out(distances, seeds, values, alpha):
     """Take eq. 1 at every seed's own pixel, over the other seeds near it.
 
     Parameters
@@ -144,20 +146,20 @@ def left_out(distances, seeds, colors, alpha):
         From each seed's pixel to the k nearest seeds, itself among them or not; infinite in empty places.
     seeds : (S, k) int32
         Which these are; -1 in empty places.
-    colors : (S, 2) float
+    values : (S, C) float
     alpha : float
 
     Returns
     -------
-    (S, 2) float32
+    (S, C) float32
         0 where no other seed is near.
     """
-    own = seeds == np.arange(len(colors))[:, None]
+    own = seeds == np.arange(len(values))[:, None]
     distances = np.where(own, np.inf, distances)
     order = np.argsort(distances, axis=1, kind="stable")
     distances, seeds = (np.take_along_axis(array, order, axis=1) for array in (distances, seeds))
-    mean, _ = blend_nearest(distances[:, None], seeds[:, None], colors, alpha)
-    return mean.chroma[:, :, 0].T
+    mean, _ = blend_nearest(distances[:, None], seeds[:, None], values, alpha)
+    return mean.values[:, :, 0].T
 
 
 def _relative_weight(farther, nearest, alpha):

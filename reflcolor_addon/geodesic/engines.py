@@ -44,17 +44,17 @@ class NativeEngine:
         """Return the (H, W) float32 distances to a pixel (row * W + column)."""
         return kernel.field(self._graph, pixel, control=control)
 
-    def blend(self, alpha):
+    def blend(self, alpha, channels=2):
         """Return the empty sums of eq. 1."""
-        return kernel.Blend(self.shape, alpha)
+        return kernel.Blend(self.shape, alpha, channels)
 
-    def nearest(self, pixels, colors, alpha, k, control):
+    def nearest(self, pixels, values, alpha, k, control):
         """Return the mean over the k nearest seeds of every pixel, its (H, W) bound, and those of the seeds' pixels.
 
-        The last are (S, k) distances and (S, k) seeds.
+        ``values`` are (S, C). The last are (S, k) distances and (S, k) seeds.
         """
         found = kernel.nearest(self._graph, pixels, k, control=control)
-        return *found.blend(colors, alpha, control=control), found.at(pixels)
+        return *found.blend(values, alpha, control=control), found.at(pixels)
 
 
 class ScipyEngine:
@@ -81,11 +81,11 @@ class ScipyEngine:
         # Without any edge, scipy still reaches the source.
         return np.where(self._graph.valid, distance, np.inf).astype(np.float32)
 
-    def blend(self, alpha):
+    def blend(self, alpha, channels=2):
         """Return the empty sums of eq. 1."""
-        return Blend(self.shape, alpha)
+        return Blend(self.shape, alpha, channels)
 
-    def nearest(self, pixels, colors, alpha, k, control):
+    def nearest(self, pixels, values, alpha, k, control):
         """Return the mean over the k nearest seeds of every pixel, its (H, W) bound, and those of the seeds' pixels."""
         distances = np.full((*self.shape, k + 1), np.inf, np.float32)
         seeds = np.full((*self.shape, k + 1), -1, np.int32)
@@ -97,7 +97,7 @@ class ScipyEngine:
             control.done = seed + 1
         distances, seeds = distances[..., :k], seeds[..., :k]
         place = np.unravel_index(pixels, self.shape)
-        return *blend_nearest(distances, seeds, colors, alpha), (distances[place], seeds[place])
+        return *blend_nearest(distances, seeds, values, alpha), (distances[place], seeds[place])
 
 
 class _Flag:

@@ -52,8 +52,8 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled, working
     engine : NativeEngine or ScipyEngine
     blend : Blend
         The engine's.
-    seeds : list of (int, (float, float))
-        Pixel, row * W + column, and chrominance of each.
+    seeds : list of (int, tuple of float)
+        Pixel, row * W + column, and values of each.
     threads : int
     held : HeldFields
     added : callable
@@ -90,9 +90,9 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled, working
                 if not fields:
                     fields.append(awaited(ahead.pop(index), control, tell, cancelled))
                     end = index + 1
-                colors = [color for _, color in seeds[index:end]]
+                values = [own for _, own in seeds[index:end]]
                 run = pool.map if len(fields) > 1 else map
-                summed = pool.submit(blend.add_all, fields, colors, control, run)
+                summed = pool.submit(blend.add_all, fields, values, control, run)
                 awaited(summed, control, tell, cancelled)
                 for field in fields:
                     held.hold(seeds[index][0], field)

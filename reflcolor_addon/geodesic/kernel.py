@@ -5,11 +5,11 @@
     graph = kernel.Graph(luminance, range_image, valid, beta=1.0, neighbors=8, wrap=False, step_cost=0.0)
     distances = kernel.field(graph, [pixel], control=control)                 # (H, W) float32
     blend = kernel.Blend((height, width), alpha)                              # one field after another
-    blend.add(distances, (cb, cr))
+    blend.add(distances, (cb, cr))                                            # or a whole color
     mean = blend.mean()                                                       # a Mean
 
     found = kernel.nearest(graph, pixels, k, control=control)                 # a Nearest
-    mean, bound = found.blend(colors, alpha, control=control)
+    mean, bound = found.blend(values, alpha, control=control)
 
 A pixel is ``row * width + column``. A ``Control`` carries the wish to cancel into the kernel and its progress out.
 
@@ -25,6 +25,7 @@ import numpy as np
 from ..errors import Cancelled, ReflcolorError
 from ..native.library import (
     ABI_VERSION,
+    MAX_CHANNELS,
     NO_MEMORY,
     CGraph,
     Control,
@@ -180,8 +181,8 @@ def field(graph, pixels, *, start=None, control=None):
 class Mean(NamedTuple):
     """Equation 1 for every pixel."""
 
-    chroma: np.ndarray
-    """(2, H, W) float32: the weighted means; 0 where no seed arrives."""
+    values: np.ndarray
+    """(C, H, W) float32: the weighted means; 0 where no seed arrives."""
     weight: np.ndarray
     """(H, W) float32: the sum of (r / least r)^-alpha; at least 1, 0 where no seed arrives."""
     nearest_seed: np.ndarray
@@ -245,13 +246,13 @@ class Nearest:
         lists = self._grid[np.unravel_index(pixels, self._graph.shape)]
         return lists[:, : self._k], lists[:, self._k :].view(np.int32)
 
-    def blend(self, colors, alpha, *, control=None):
+    def blend(self, values, alpha, *, control=None):
         """Take equation 1 over the k nearest seeds of every pixel.
 
         Parameters
         ----------
-        colors : (S, 2) float
-            Chrominance of all seeds.
+        values : (S, C) float
+            What is blended, of all seeds: chrominance, or a whole color; C is 1 to 4.
         alpha : float
         control : Control, optional
 
@@ -259,24 +260,24 @@ class Nearest:
         -------
         mean : Mean
         bound : (H, W) float32
-            The most by which the seeds left out could change either chrominance, if each lies no nearer than the k-th.
+            The most by which the seeds left out could change any channel, if each lies no nearer than the k-th.
         """
-        shape, colors = self._graph.shape, _colors(colors)
+        shape, values = self._graph.shape, _values(values)
         _check_alpha(alpha)
         mean = Mean(
-            chroma=np.empty((2, *shape), np.float32),
+            values=np.empty((values.shape[1], *shape), np.float32),
             weight=np.empty(shape, np.float32),
             nearest_seed=np.empty(shape, np.int32),
             least=np.empty(shape, np.float32),
         )
         bound = np.empty(shape, np.float32)
-        outputs = [address(each) for each in (mean.least, mean.nearest_seed, mean.weight, *mean.chroma, bound)]
+        outputs = [address(each) for each in (mean.least, mean.nearest_seed, mean.weight, mean.values, bound)]
         rows = max(1, _PIXELS_AT_ONCE // shape[1])
         for row in range(0, shape[0], rows):
             if control and control.cancelled:
                 raise Cancelled
             arguments = row, min(row + rows, shape[0]), self._k, address(self._plane)
-            arguments += len(colors), address(colors), alpha
+            arguments += *values.shape, address(values), alpha
             check(library().rc_blend_nearest(self._graph._c, *arguments, *outputs))
         return mean, bound
 
@@ -291,52 +292,57 @@ class Nearest:
 
 
 class Blend:
-    """The sums of equation 1, taken seed by seed; 20 bytes per pixel.
+    """The sums of equation 1, taken seed by seed; 12 bytes per pixel, and 4 for each channel.
 
     Parameters
     ----------
     shape : (H, W)
     alpha : float
         Exponent of eq. 2, at least 0.
+    channels : int
+        How many values a seed has: 2 of chrominance, or 3 of a whole color; 1 to 4.
     """
 
-    def __init__(self, shape, alpha):
+    def __init__(self, shape, alpha, channels=2):
         _check_alpha(alpha)
         self._alpha = alpha
         self._mean = Mean(
-            chroma=np.zeros((2, *shape), np.float32),
+            values=np.zeros((channels, *shape), np.float32),
             weight=np.zeros(shape, np.float32),
             nearest_seed=np.full(shape, -1, np.int32),
             least=np.full(shape, np.inf, np.float32),
         )
         self._count = 0
 
-    def add(self, distances, color, control=None):
-        """Add a seed: its (H, W) float32 distances, infinite where it does not reach, and its two chrominances.
+    def add(self, distances, values, control=None):
+        """Add a seed: its (H, W) float32 distances, infinite where it does not reach, and its value in each channel.
 
         Its index is the number of seeds added so far. The order of adding decides the last bits of the sums. After
         a cancellation they are of no more use.
         """
-        self.add_all([distances], [color], control)
+        self.add_all([distances], [values], control)
 
-    def add_all(self, fields, colors, control=None, run=map):
+    def add_all(self, fields, values, control=None, run=map):
         """Add several seeds; ``run`` is `map` or a pool's, which lets threads work on parts of the image."""
         first, self._count = self._count, self._count + len(fields)
         fields = [_rows(np.asarray(distances, np.float32)) for distances in fields]
-        height, width = self._mean.weight.shape
+        values = _values(values)
+        channels, height, width = self._mean.values.shape
         for distances in fields:
             if distances.shape != (height, width):
                 raise ReflcolorError(f"distances of shape {distances.shape} do not fit an image {height} x {width}")
-        sums = (self._mean.least, self._mean.nearest_seed, self._mean.weight, *self._mean.chroma)
+        if values.shape != (len(fields), channels):
+            raise ReflcolorError(f"expected values of shape {(len(fields), channels)}, found {values.shape}")
+        sums = (self._mean.least, self._mean.nearest_seed, self._mean.weight, self._mean.values[0])
         rows = max(1, _PIXELS_AT_ONCE // width)
 
         def add_to(strip):
             parts = [address(each[strip]) for each in sums]
-            for seed, (distances, color) in enumerate(zip(fields, colors, strict=True), first):
+            for seed, (distances, own) in enumerate(zip(fields, values, strict=True), first):
                 part = distances[strip]
                 stride = max(part.strides[0] // 4, width)
-                arguments = len(part), width, address(part), stride, self._alpha, seed, *map(float, color)
-                check(library().rc_blend_add(*arguments, *parts, pointer_to(control)))
+                arguments = len(part), width, address(part), stride, self._alpha, seed, channels, address(own)
+                check(library().rc_blend_add(*arguments, *parts, height * width, pointer_to(control)))
 
         for _ in run(add_to, [slice(top, min(top + rows, height)) for top in range(0, height, rows)]):
             pass
@@ -347,7 +353,8 @@ class Blend:
         More can be added afterwards if the sums are kept; else they become the result, which saves their memory.
         """
         mean = Mean(*(sums.copy() for sums in self._mean)) if keep else self._mean
-        check(library().rc_blend_finish(mean.weight.size, address(mean.weight), *map(address, mean.chroma)))
+        channels, pixels = len(mean.values), mean.weight.size
+        check(library().rc_blend_finish(pixels, address(mean.weight), channels, address(mean.values), pixels))
         return mean
 
 
@@ -356,10 +363,10 @@ def _check_alpha(alpha):
         raise ReflcolorError(f"alpha must be finite and at least 0, found {alpha}")
 
 
-def _colors(colors):
-    colors = np.ascontiguousarray(colors, np.float32)
-    if colors.ndim != 2 or colors.shape[1] != 2:
-        raise ReflcolorError(f"expected chrominances of shape (seeds, 2), found {colors.shape}")
-    if not np.isfinite(colors).all():
-        raise ReflcolorError("chrominances must be finite, found NaN or infinity")
-    return colors
+def _values(values):
+    values = np.ascontiguousarray(values, np.float32)
+    if values.ndim != 2 or not 1 <= values.shape[1] <= MAX_CHANNELS:
+        raise ReflcolorError(f"expected values of shape (seeds, 1 to {MAX_CHANNELS}), found {values.shape}")
+    if not np.isfinite(values).all():
+        raise ReflcolorError("the seeds' values must be finite, found NaN or infinity")
+    return values

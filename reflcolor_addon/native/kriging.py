@@ -5,7 +5,6 @@ import numpy as np
 from .library import address, check, library, pointer_to
 
 FEATURES = 8
-MAX_CHANNELS = 4
 
 
 def exponential_sums(features, seeds, weights, control=None):

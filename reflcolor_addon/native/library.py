@@ -11,7 +11,9 @@ import numpy as np
 
 from ..errors import Cancelled, ReflcolorError
 
-ABI_VERSION = 3
+ABI_VERSION = 4
+MAX_CHANNELS = 4
+"""Values that a seed can have, of which means and sums are taken."""
 
 NO_MEMORY = "the kernel ran out of memory: use a larger stride or fewer nearest seeds"
 _OK, _CANCELLED, _MEMORY = 0, 1, 2
@@ -51,11 +53,15 @@ _FUNCTIONS = {
     "rc_graph_fill": (_i32, _i64, _i64, _i32, *[_pointer, _i64] * 3, _pointer, _pointer, _control_pointer),
     "rc_field": (_i32, _graph_pointer, _i64, _pointer, _pointer, _pointer, _control_pointer),
     "rc_nearest": (_i32, _graph_pointer, _i64, _pointer, _i32, _pointer, _control_pointer),
-    "rc_blend_add": (_i32, _i64, _i64, _pointer, _i64, _f32, _i32, _f32, _f32, *[_pointer] * 5, _control_pointer),
-    "rc_blend_finish": (_i32, _i64, _pointer, _pointer, _pointer),
+    "rc_blend_add": (
+        *(_i32, _i64, _i64, _pointer, _i64, _f32, _i32, _i32, _pointer),
+        *[_pointer] * 4,
+        *(_i64, _control_pointer),
+    ),
+    "rc_blend_finish": (_i32, _i64, _pointer, _i32, _pointer, _i64),
     "rc_blend_nearest": (
-        *(_i32, _graph_pointer, _i64, _i64, _i32, _pointer, _i64, _pointer, _f32),
-        *[_pointer] * 6,
+        *(_i32, _graph_pointer, _i64, _i64, _i32, _pointer, _i64, _i32, _pointer, _f32),
+        *[_pointer] * 5,
     ),
     "rc_kriging": (_i32, _i64, _pointer, _i64, _pointer, _i32, *[_pointer] * 2, _control_pointer),
 }

@@ -9,6 +9,7 @@ import numpy as np
 from ..color import colorspaces
 from ..color.colorization import Colorization
 from ..color.colorizer import Colorizer
+from ..color.luminance import CHROMINANCE, lightness
 from ..color.tone import toned
 from ..errors import Cancelled
 from ..scan.normalization import normalize
@@ -154,15 +155,22 @@ class _LiveScan:
         if self._coarse is None:
             self._coarse = Colorizer(self._fewer_pixels(), settings)
         rows, cols = seeds.rows // self._stride, seeds.cols // self._stride
-        found = self._coarse.colorize(Seeds(rows, cols, seeds.rgb), settings, cancelled=cancelled)
-        chroma = colorspaces.chrominance(found.rgb, settings.color_space).astype(np.float32)
-        chroma[found.nearest_seed < 0] = 0
-        height, width = self._scan.shape
-        enlarged = cv2.resize(chroma, None, fx=self._stride, fy=self._stride, interpolation=cv2.INTER_LINEAR)
-        luminance = toned(self._luminance, settings.tone)
-        rgb = colorspaces.merge(luminance, enlarged[:height, :width], settings.color_space)
+        fewer, _ = Seeds(rows, cols, seeds.rgb).placed_on(self._coarse.scan)
+        spread, _ = self._coarse.spread(fewer, settings, cancelled=cancelled)
+        # Enlarged together with where they are, so that what is next to no value takes nothing of it.
+        reached = spread.reached[..., None].astype(np.float32)
+        values, share = (self._enlarged(each) for each in (spread.values * reached, reached))
+        values /= np.maximum(share, np.finfo(np.float32).tiny)[..., None]
+        gray = lightness(self._luminance, values, share > 0, settings)
+        rgb = colorspaces.merge(gray, values[..., CHROMINANCE], settings.color_space)
         rgb[~self._scan.valid] = 0
         return rgb
+
+    def _enlarged(self, image):
+        """The image of a few pixels at the size of all."""
+        height, width = self._scan.shape
+        larger = cv2.resize(image, None, fx=self._stride, fy=self._stride, interpolation=cv2.INTER_LINEAR)
+        return larger[:height, :width]
 
     def _fewer_pixels(self):
         kept = np.s_[:: self._stride, :: self._stride]

@@ -1,0 +1,67 @@
+"""How light the colors are: as the scan's reflectance, as the seeds tell, or anything between.
+
+A seed has a whole color, so its luminance can be spread over the scan as its chrominance is: along paths (eq. 1) and
+by kriging. The paper takes the luminance from the reflectance instead; that is infrared, in which leaves are
+white and dark cloth is bright, and it has no shadows.
+"""
+
+import numpy as np
+
+from . import colorspaces
+from .tone import toned
+
+CHROMINANCE = slice(0, 2)
+"""Of the channels that are spread."""
+LUMINANCE = slice(2, 3)
+
+
+def channels_of(settings):
+    """Return the slices of the channels that settings ask to be spread, each to be estimated by itself."""
+    return (CHROMINANCE, LUMINANCE) if settings.light > 0 else (CHROMINANCE,)
+
+
+def seed_values(rgb, settings):
+    """Return what is spread from seeds of these colors.
+
+    Parameters
+    ----------
+    rgb : (S, 3) uint8
+        sRGB.
+    settings : Settings
+
+    Returns
+    -------
+    (S, C) float32
+        Two channels of chrominance and, if ``settings.light`` asks for it, the luminance in the same units: one unit
+        is as many levels of 8 bits in each.
+    """
+    values = [colorspaces.chrominance(rgb, settings.color_space)]
+    if settings.light > 0:
+        levels = colorspaces.luminance(rgb, settings.color_space)
+        values.append(levels[:, None] / colorspaces.levels_per_unit(settings.color_space))
+    return np.concatenate(values, axis=1).astype(np.float32)
+
+
+def lightness(reflectance, values, reached, settings):
+    """Return how light a result is.
+
+    Parameters
+    ----------
+    reflectance : (H, W) float32, 0..255
+        Normalized.
+    values : (H, W, C) float32
+        What was spread; see `seed_values`.
+    reached : (H, W) bool
+        Where it was; elsewhere a result is as light as the reflectance.
+    settings : Settings
+
+    Returns
+    -------
+    (H, W) float32, 0..255
+        With ``light`` 0 the reflectance, with 1 the luminance of the seeds; then the tone.
+    """
+    mixed = reflectance
+    if settings.light > 0:
+        seen = np.clip(values[..., 2] * colorspaces.levels_per_unit(settings.color_space), 0, 255)
+        mixed = np.where(reached, (1 - settings.light) * reflectance + settings.light * seen, reflectance)
+    return toned(mixed, settings.tone)
