@@ -41,7 +41,10 @@ class Provenance(Step):
 
 def _draw(layout, found):
     column = layout.column(align=True)
-    column.label(text="Evidence", icon="CHECKMARK")
+    if found.guessed:
+        column.label(text="None: all colors are guesses", icon="ERROR")
+    else:
+        column.label(text="Evidence", icon="CHECKMARK")
     for source, count in found.sources.items():
         column.label(text=label(EVIDENCE[source].counted, count=count), icon="BLANK1", translate=False)
     column = layout.column(align=True)

@@ -1,5 +1,6 @@
 """Step 1: the scan."""
 
+from ..operators.scene.scan_object import GUESSED
 from ..operators.scene.texts import label
 from .step import Step, in_view
 
@@ -19,6 +20,10 @@ class Scan(Step):
         rows, cols, returns = obj.reflcolor.rows, obj.reflcolor.cols, len(obj.data.vertices)
         said = label("{rows} x {cols} pixels, {returns} returns", rows=rows, cols=cols, returns=returns)
         column.label(text=said, translate=False)
+        if obj.get(GUESSED):
+            row = column.row()
+            row.alert = True
+            row.label(text="Its colors are guesses", icon="ERROR")
         if context.space_data.local_view is not None:
             layout.operator("view3d.localview", text="Show Other Objects", icon="HIDE_OFF")
 

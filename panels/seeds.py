@@ -76,6 +76,8 @@ class Match(Step):
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor
         layout.prop(settings, "matching")
+        if settings.matching == "verified":
+            layout.prop(settings, "guess")
         draw_selected(context, layout)
         layout.operator("reflcolor.match_photos", icon="VIEWZOOM")
         row = layout.row(align=True)

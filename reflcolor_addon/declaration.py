@@ -7,6 +7,8 @@ from numbers import Integral, Real
 from .errors import SettingsError
 from .messages import Message
 
+_YES_NO = {"yes": True, "no": False}
+
 
 @dataclass(frozen=True)
 class Choice:
@@ -36,7 +38,7 @@ class Choice:
 class Setting:
     """What is known of one setting: everything but its value.
 
-    A setting is a number in a range, one of several choices, or either.
+    A setting is a number in a range, one of several choices, either of these, or yes or no.
 
     Parameters
     ----------
@@ -48,7 +50,7 @@ class Setting:
     group : str
         What it is a setting of, such as "propagation" or "matching".
     kind : type or None
-        ``float`` or ``int`` (whole numbers only); None where only the choices are allowed.
+        ``float``, ``int`` (whole numbers only) or ``bool``; None where only the choices are allowed.
     low, high : float
         The range of numbers, ends included.
     unit : str
@@ -102,14 +104,16 @@ class Setting:
             if choice.name == name:
                 return choice.value
         try:
-            value = self.kind(name) if self.kind is not None else name
-        except ValueError:
+            value = _YES_NO[name] if self.kind is bool else self.kind(name) if self.kind is not None else name
+        except (ValueError, KeyError):
             value = name
         self.check(value)
         return value
 
     def name_of(self, value):
         """Return what a person types for a value."""
+        if self.kind is bool:
+            return next(name for name, meant in _YES_NO.items() if meant == value)
         names = [choice.name for choice in self.choices if choice.value == value]
         return names[0] if names else f"{value:g}" if isinstance(value, float) else str(value)
 
@@ -121,6 +125,8 @@ class Setting:
         named : bool
             Give the choices the names that a person types, not their Python values.
         """
+        if self.kind is bool:
+            return Message("yes or no")
         choices = ", ".join(choice.name if named else repr(choice.value) for choice in self.choices)
         if self.kind is None:
             return Message("one of {choices}", choices=choices)
@@ -131,6 +137,8 @@ class Setting:
         return Message("{number}, or one of {choices}", number=number, choices=choices) if choices else number
 
     def _is_in_range(self, value):
+        if self.kind is bool:
+            return isinstance(value, bool)
         number = isinstance(value, Integral if self.kind is int else Real) and not isinstance(value, bool)
         return number and math.isfinite(value) and self.low <= value <= self.high
 
@@ -153,10 +161,10 @@ def parameter_lines(settings):
     """Return the declarations as the section "Parameters" of a docstring."""
     lines = []
     for declared in settings:
-        number = {float: "float", int: "int", None: ""}[declared.kind]
+        number = declared.kind.__name__ if declared.kind else ""
         parts = [number] if number else []
         parts += [repr(choice.value) for choice in declared.choices]
-        span = f", {declared.low:.7g} to {declared.high:.7g}" if declared.kind else ""
+        span = f", {declared.low:.7g} to {declared.high:.7g}" if declared.kind in (float, int) else ""
         unit = f" {declared.unit}" if declared.unit in {"pixels", "meters", "degrees"} else ""
         lines += [
             f"{declared.name} : {' or '.join(parts)}{span}{unit}, default {declared.default!r}",

@@ -136,11 +136,16 @@ class Settings:
         label="Matching",
         help="How seeds are found in photos",
         choices=(
-            Choice(
-                "verified", "Verified", "By each photo's camera, accepted only if it stands a test; else by appearance"
-            ),
+            Choice("verified", "Verified", "By each photo's camera, accepted only if it stands a test"),
             Choice("paper", "Paper", "By the most similar superpixels, as published; often wrong on real scans"),
         ),
+    )
+    guess: bool = setting(
+        False,
+        group=MATCHING,
+        kind=bool,
+        label="Guess Colors",
+        help="Take guessed colors from photos that could not be verified; they may be those of another place",
     )
     slic_segments: int = setting(
         500,

@@ -235,12 +235,24 @@ def test_colors_from_photos_are_those_of_the_seeds_found_in_them(run_cli, painte
     files_and_photo = ("south.ptx", "east.ptx", "--photo", "view.png")
     assert run_cli("seeds", *files_and_photo, *PAPER, "-o", "{scan}.json")[0] == 0
     status, out, err = run_cli("colorize", *files_and_photo, *PAPER, "-o", "{scan}.png", "--report", "r_{scan}.json")
-    assert (status, err, calls) == (0, "", [2, 2])
+    assert (status, calls) == (0, [2, 2])
+    assert [line.split(":")[1] for line in err.splitlines()] == [" south", " east"] and "guesses" in err
     assert out.splitlines()[:2] == [f"{n}: view.png: matched by appearance, as published" for n in ("south", "east")]
     for name in ("south", "east"):
         assert (read_image(f"{name}.png") == expected_colors(name)).all()
         report = read_json(f"r_{name}.json")
         assert [photo["name"] for photo in report["photos"]] == ["view.png"] and "match" in report["times_s"]
+
+
+def test_a_photo_that_is_not_verified_colors_nothing_unless_guesses_are_wanted(run_cli, painted):
+    write_png(painted / "noise.png", np.random.default_rng(0).integers(0, 255, (90, 120, 3), np.uint8))
+    arguments = ("colorize", "south.ptx", "--photo", "noise.png", "--slic-segments", "40", "-o", "south.png")
+    status, _, err = run_cli(*arguments)
+    assert status == 1 and "south: no photo could be verified, so there are no seeds" in err and "--guess" in err
+    assert not (painted / "south.png").exists()
+    status, _, err = run_cli(*arguments, "--guess", "--report", "report.json")
+    assert status == 0 and "the colors are guesses" in err
+    assert read_json("report.json")["result"]["guessed"] is True
 
 
 def test_hand_picked_seeds_may_be_there_for_some_scans_only(run_cli, painted):

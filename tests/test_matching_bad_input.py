@@ -76,13 +76,13 @@ def test_two_hundred_megapixels_are_reduced_and_their_points_counted_in_full(roo
 
 @pytest.mark.parametrize(("segments", "least", "most"), [(1, 1, 4), (20_000, 100, 600)])
 def test_one_segment_or_more_than_pixels_give_seeds(corner, photo, segments, least, most):
-    matching = match_photos(corner, [photo], Settings(slic_segments=segments))
+    matching = match_photos(corner, [photo], Settings(slic_segments=segments, guess=True))
     assert least <= len(matching.seeds) <= most
     assert corner.valid[matching.seeds.rows, matching.seeds.cols].all()
 
 
 def test_a_photo_of_sixteen_pixels_a_side_gives_seeds(corner):
     tiny = np.random.default_rng(0).integers(0, 255, (16, 16, 3), np.uint8)
-    matching = match_photos(corner, [tiny], Settings(slic_segments=40))
+    matching = match_photos(corner, [tiny], Settings(slic_segments=40, guess=True))
     assert not matching.photos[0].verified
     assert len(matching.seeds) > 10

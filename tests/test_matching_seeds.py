@@ -41,7 +41,8 @@ def refused(room, noise):
     """What a photo of something else gives, with two pairs picked by hand, and the progress on the way."""
     hand = Seeds([40, 80], [40, 80], [[1, 2, 3]] * 2, photos=("photo 1",) * 2, photo_xy=[[5, 5], [50, 50]])
     fractions = []
-    found = match_photos(room, [noise], FEW, hand=hand, progress=lambda fraction, text: fractions.append(fraction))
+    few = replace(FEW, guess=True)
+    found = match_photos(room, [noise], few, hand=hand, progress=lambda fraction, text: fractions.append(fraction))
     return found, fractions
 
 
@@ -90,6 +91,14 @@ def test_an_unrelated_photo_is_refused_said_so_and_no_worse_than_its_mean_color(
     found = matching.seeds.rgb[np.array(matching.seeds.reason) == "appearance"]
     assert np.median(np.abs(found - mean).max(axis=1)) <= 12
     assert len(found) > 50
+
+
+def test_an_unrelated_photo_gives_no_seeds_unless_guesses_are_wanted(room, noise):
+    hand = Seeds([40], [40], [[1, 2, 3]])
+    for picked, expected in ((None, ()), (hand, ("hand",))):
+        matching = match_photos(room, [noise], FEW, hand=picked)
+        assert matching.seeds.reason == expected
+        assert "no photo could be verified, so there are no seeds" in matching.warnings[-1]
 
 
 def test_two_pairs_are_too_few_and_the_warning_says_how_many_it_takes(refused):
@@ -178,7 +187,7 @@ def test_kept_seeds_stay_as_they_are_and_nothing_is_found_on_their_pixels(matchi
 def test_scans_of_a_site_share_what_they_learn(room, turned):
     unseen = painted_room.scan(rows=40, columns=40, step_deg=0.5, name="corner")
     unseen = replace(unseen, points=unseen.points[:, ::-1] * [1, -1, 1], pose=np.diag([1.0, -1, 1, 1]))
-    first, second = match_site([room, unseen], [turned], FEW)
+    first, second = match_site([room, unseen], [turned], replace(FEW, guess=True))
     assert first.photos[0].verified
     assert len(second.seeds) > 0
 
@@ -202,7 +211,7 @@ def test_a_scan_that_no_photo_shows_is_guessed_from_the_others_and_told(monkeypa
 def test_a_scan_with_one_percent_of_returns_gives_seeds(room, turned):
     valid = room.valid & (np.random.default_rng(0).random(room.shape) < 0.01)
     sparse = Scan(name="sparse", points=room.points, reflectance=room.reflectance, valid=valid)
-    seeds = match_seeds(sparse, [turned], FEW)
+    seeds = match_seeds(sparse, [turned], replace(FEW, guess=True))
     assert len(seeds) > 0
     assert valid[seeds.rows, seeds.cols].all()
 

@@ -5,6 +5,7 @@ from .looks import refresh_look, show_look
 from .scan_object import (
     COLORIZED,
     CONFIDENCE,
+    GUESSED,
     NEAREST_SEED,
     add_colors,
     add_values,
@@ -28,6 +29,10 @@ def write_colorization(obj, colorization):
     name = f"{obj.name} {COLORIZED}"
     state.colorized_image = write_image(own_image(obj, "colorized_image"), name, colorization.rgb, is_data=False)
     show_like_reflectance(obj, state.colorized_image)
+    if colorization.seeds.all_guessed:
+        obj[GUESSED] = True
+    elif GUESSED in obj:
+        del obj[GUESSED]
     refresh_look(obj)
 
 

@@ -22,6 +22,8 @@ NEAREST_SEED = "nearest_seed"
 ERROR = "error"
 SHIFT = "reflcolor_shift"
 CENTER = "reflcolor_center"
+# On objects whose colors are guesses, none of them seen by a photo that was verified.
+GUESSED = "reflcolor_guessed"
 _KINDS = {np.float32: "FLOAT", np.int32: "INT"}
 
 

@@ -1,6 +1,6 @@
 """The core's settings as Blender's properties, made from their declarations, and back."""
 
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ...reflcolor_addon.settings import DEFAULT_PRESET, MATCHING, PROPAGATION, SETTINGS, Settings
 
@@ -25,6 +25,8 @@ def _property(setting, default):
     if setting.kind is None:
         items = tuple((choice.name, choice.label, choice.help) for choice in setting.choices)
         return EnumProperty(**common, items=items, default=setting.name_of(default))
+    if setting.kind is bool:
+        return BoolProperty(**common, default=default)
     common |= {"min": setting.low, "max": setting.high}
     common |= {"soft_max": setting.slider_high} if setting.slider_high is not None else {}
     if setting.kind is int:

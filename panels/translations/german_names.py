@@ -110,6 +110,7 @@ _PROPERTIES = {
     "Full Turn": "Volle Umdrehung",
     "Grazing Angle": "Streifwinkel",
     "Greatest Range": "Größte Entfernung",
+    "Guess Colors": "Farben raten",
     "Has a Color": "Hat eine Farbe",
     "Image": "Bild",
     "Kriging": "Kriging",

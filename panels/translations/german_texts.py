@@ -15,6 +15,7 @@ _PANELS = {
     "Import it again": "Noch einmal importieren",
     "Inference": "Schluss",
     "Inputs (SHA-256)": "Eingaben (SHA-256)",
+    "Its colors are guesses": "Seine Farben sind geraten",
     "Maps show in Solid shading": "Karten zeigen sich in der Schattierung Solide",
     "Needs a scan": "Braucht einen Scan",
     "Delete": "Löschen",
@@ -31,6 +32,7 @@ _PANELS = {
     "Next Seed": "Nächster Saatpunkt",
     "No seed reaches": "Von keinem erreicht",
     "None in the scan": "Nicht im Scan",
+    "None: all colors are guesses": "Keine: alle Farben sind geraten",
     "Not known": "Nicht bekannt",
     "Not recognized? Pick 4 to 6 seeds": "Nicht erkannt? 4 bis 6 Saatpunkte",
     "Press ESC to cancel": "ESC bricht ab",
@@ -180,7 +182,18 @@ CORE = {
     "the colors are dark because most of the reflectance is; try tone {tone:g}": (
         "die Farben sind dunkel, weil die Reflektanz es größtenteils ist; Tonwert {tone:g} versuchen"
     ),
+    "the colors are guesses: no seed was picked by a person or seen by a photo that was verified": (
+        "die Farben sind geraten: kein Saatpunkt ist von einem Menschen gesetzt oder von einem geprüften Foto gesehen"
+    ),
     "{nearest} nearest of {count} seeds": "{nearest} nächste von {count} Saatpunkten",
+    "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs, or have colors guessed": (
+        "{scan}: kein Foto konnte geprüft werden, also gibt es keine Saatpunkte; vier bis sechs Paare setzen "
+        "oder Farben raten lassen"
+    ),
+    "{scan}: no photo could be verified; colors are guessed from likeness, near the photos' mean color": (
+        "{scan}: kein Foto konnte geprüft werden; die Farben sind nach Ähnlichkeit geraten, nahe der "
+        "mittleren Farbe der Fotos"
+    ),
     "{count} pixels are cut off from every seed and keep their gray; add seeds there": (
         "{count} Pixel sind von allen Saatpunkten abgeschnitten und bleiben grau; dort Saatpunkte hinzufügen"
     ),

@@ -167,8 +167,8 @@ _SETTINGS = {
     "All seeds where that takes about two seconds, else as many as it takes to be close to that": (
         "Alle Saatpunkte, wo das etwa zwei Sekunden braucht, sonst so viele, dass es dem nahekommt"
     ),
-    "By each photo's camera, accepted only if it stands a test; else by appearance": (
-        "Durch die Kamera jedes Fotos, wenn sie eine Prüfung besteht; sonst nach dem Aussehen"
+    "By each photo's camera, accepted only if it stands a test": (
+        "Nach der Kamera jedes Fotos, die nur gilt, wenn sie eine Prüfung besteht"
     ),
     "By the most similar superpixels, as published; often wrong on real scans": (
         "Nach den ähnlichsten Superpixeln, wie veröffentlicht; bei echten Scans oft falsch"
@@ -227,6 +227,9 @@ _SETTINGS = {
     ),
     "Superpixels that the scan, and each photo, is divided into; there is one seed in each at most": (
         "Superpixel, in die der Scan und jedes Foto geteilt werden; in jedem ist höchstens ein Saatpunkt"
+    ),
+    "Take guessed colors from photos that could not be verified; they may be those of another place": (
+        "Geratene Farben aus Fotos nehmen, die nicht geprüft werden konnten; es können die eines anderen Ortes sein"
     ),
     "The method as published": "Das Verfahren, wie veröffentlicht",
     "What measured best on real scans: smoothed reflectance, fewer seeds per pixel, kriging": (

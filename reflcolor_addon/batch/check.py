@@ -60,7 +60,7 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     check_placeholder(plan, len(plan.scans), refuse)
     warnings, seeds, hand = [], None, None
     if plan.seeds is not None and PLACEHOLDER not in str(plan.seeds):
-        seeds = _attempt(refuse, load_seeds, plan.seeds, plan.photos, warnings)
+        seeds = _attempt(refuse, load_seeds, plan.seeds, plan.photos)
         if seeds is not None:
             _attempt(refuse, check_photos, plan.photos, [seeds], warnings)
     if plan.hand is not None and PLACEHOLDER not in str(plan.hand):
@@ -111,8 +111,8 @@ def check_placeholder(plan, count, refuse=_raise):
             )
 
 
-def load_seeds(path, photos, warnings):
-    """Return the seeds of a file, with a warning where none was seen or picked.
+def load_seeds(path, photos):
+    """Return the seeds of a file.
 
     Raises
     ------
@@ -122,8 +122,6 @@ def load_seeds(path, photos, warnings):
     seeds = Seeds.load(path, photos)
     if len(seeds) == 0:
         raise SeedsError("{path}: holds no seeds; give at least one pixel with a color", path=path)
-    if all(reason == "appearance" for reason in seeds.reason):
-        warnings.append(Message("{path}: every color is a guess by likeness; none was seen or picked", path=path))
     return seeds
 
 

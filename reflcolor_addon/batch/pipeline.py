@@ -5,6 +5,7 @@ same steps; they read and write the scene instead of files.
 """
 
 from ..color.colorizer import colorize
+from ..errors import SeedsError
 from ..matching import match_site
 from ..messages import Message, about_scan
 from ..progress import part
@@ -45,6 +46,7 @@ def run_plan(plan, session):
         with timed(times, "match"):
             find_seeds(jobs, plan.photos, plan.settings, progress=session.progress, cancelled=session.cancelled)
         _tell_matching(jobs, session)
+        _check_found(jobs)
     count = len(jobs)
     with writing(plan, jobs, session) as write:
         for number in range(count):
@@ -69,6 +71,17 @@ def _tell_matching(jobs, session):
 def _named(job, count, lines):
     """Lines that say which scan they are about, where there are several."""
     return [about_scan(line, job.name) for line in lines] if count > 1 else lines
+
+
+def _check_found(jobs):
+    """Raise SeedsError where no seeds were found for a scan."""
+    for job in jobs:
+        if not len(job.seeds):
+            raise SeedsError(
+                "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs and find seeds with "
+                "--hand, or take guessed colors with --guess",
+                scan=job.name,
+            )
 
 
 def find_seeds(jobs, photos, settings, *, progress=None, cancelled=None):

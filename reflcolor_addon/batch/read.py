@@ -76,7 +76,7 @@ def _add_seeds(jobs, plan, given, session):
         if given.seeds is None and not path.is_file():
             raise SeedsError("{path}: no such file; expected the seeds of the scan {scan}", path=path, scan=job.name)
     for job, path in zip(jobs, paths, strict=True):
-        job.seeds = given.seeds or load_seeds(path, plan.photos, session.warnings)
+        job.seeds = given.seeds or load_seeds(path, plan.photos)
     if given.seeds is None:
         check_photos(plan.photos, [job.seeds for job in jobs], session.warnings)
     for job, path in zip(jobs, paths, strict=True):

@@ -52,7 +52,11 @@ def _add_settings(parser, group):
     of_what = DEFAULT_PRESET if group == PROPAGATION else "default"
     for name, setting in SETTINGS.items():
         if setting.group == group:
-            text = f"{setting.help[0].lower()}{setting.help[1:]}; {setting.expected(named=True)}"
+            text = f"{setting.help[0].lower()}{setting.help[1:]}"
+            if setting.kind is bool:
+                parser.add_argument(f"--{name}", action="store_true", default=argparse.SUPPRESS, help=text)
+                continue
+            text += f"; {setting.expected(named=True)}"
             parser.add_argument(
                 f"--{name.replace('_', '-')}",
                 type=partial(_value, setting),

@@ -43,6 +43,9 @@ _KRIGING_BYTES = 100
 """What kriging holds at its worst moment, per pixel."""
 
 
+_GUESSED = Message("the colors are guesses: no seed was picked by a person or seen by a photo that was verified")
+
+
 class Spread(NamedTuple):
     """What spreads from seeds; neither tone nor light changes it."""
 
@@ -115,6 +118,8 @@ class Colorizer:
                     "{count} pixels are cut off from every seed and keep their gray; add seeds there", count=unreached
                 )
             )
+        if seeds.all_guessed:
+            warnings.insert(0, _GUESSED)
         tone = tone_to_try(self._median, self.settings.tone)
         if tone is not None and self.settings.light == 0:
             # First, because a list of warnings may be cut.

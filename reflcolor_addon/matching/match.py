@@ -89,7 +89,8 @@ def match_photos(scan, photos, settings=None, *, hand=None, kept=None, progress=
         Not calibrated, from wherever they were taken. Arrays without a name are called "photo 1", "photo 2" ...
     settings : Settings, optional
         ``matching="verified"``: each photo's camera is estimated and accepted only if it stands a test; an accepted
-        photo gives a seed in every superpixel that it really shows, the others get theirs by appearance.
+        photo gives a seed in every superpixel that it really shows, and by likeness in others as far as that is sure.
+        Without an accepted photo there are no seeds, unless ``guess`` asks for guesses.
         ``matching="paper"``: as published, by the most similar superpixel.
     hand : Seeds, optional
         Seeds picked by a person: they stay as they are, and four or more with a point of a photo give its camera.

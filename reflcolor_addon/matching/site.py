@@ -174,7 +174,7 @@ def _learnt(places, seen, looks):
 def _with_unseen(place, seen, look, appearance, photos, settings, step):
     """Seeds of a scan: where it was seen, and by likeness elsewhere as far as that is sure."""
     if seen is None and appearance is None:
-        return _cautious(place, photos, settings, step)
+        return _unverified(place, photos, settings, step)
     count = len(place.superpixels)
     unseen = np.setdiff1d(np.arange(count), seen.segments if seen is not None else [])
     rgb, confidence = (
@@ -184,7 +184,7 @@ def _with_unseen(place, seen, look, appearance, photos, settings, step):
     )
     sure = confidence >= LEAST_CONFIDENCE
     if seen is None and not sure.any():
-        return _cautious(place, photos, settings, step)
+        return _unverified(place, photos, settings, step)
     if seen is not None:
         lost = _cut_off(place, np.concatenate([seen.segments, unseen[sure]]), unseen)
         rgb[lost & ~sure] = np.rint(seen.seeds.rgb.mean(axis=0))
@@ -220,6 +220,17 @@ def _cut_off(place, seeded, unseen):
     _, part = cv2.connectedComponents(place.image.valid.astype(np.uint8), connectivity=8)
     of_segment = part[tuple(place.superpixels.centers.T)]
     return ~np.isin(of_segment[unseen], of_segment[seeded])
+
+
+def _unverified(place, photos, settings, step):
+    """Seeds where nothing was verified: none, unless guesses are wanted."""
+    if settings.guess:
+        return _cautious(place, photos, settings, step)
+    warning = (
+        "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs, or have colors guessed"
+    )
+    place.warnings.append(Message(warning, scan=place.scan.name))
+    return Seeds(rows=np.zeros(0, int), cols=np.zeros(0, int), rgb=np.zeros((0, 3), np.uint8))
 
 
 def _cautious(place, photos, settings, step):

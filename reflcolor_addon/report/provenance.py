@@ -5,7 +5,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 from ..errors import ReflcolorError
-from ..seeds.sources import EVIDENCE, HAND, IN_PHOTO
+from ..seeds.sources import EVIDENCE, GUESSED, HAND, IN_PHOTO
 from .report import FORMAT, VERSION
 
 
@@ -25,6 +25,8 @@ class Provenance:
         Pixels whose color was spread from the seeds.
     unreached : int
         Pixels that no seed reaches; they are gray.
+    guessed : bool
+        Whether all seeds were found by likeness alone, so that nothing of the colors is evidence.
     versions : dict
         Of reflcolor and of Blender, where they are known.
     """
@@ -34,6 +36,7 @@ class Provenance:
     sources: dict[str, int]
     inferred: int
     unreached: int
+    guessed: bool
     versions: dict[str, str]
 
 
@@ -92,6 +95,7 @@ def outline(report):
             sources={source: found[source] for source in EVIDENCE if found[source]},
             inferred=report["result"]["colored"] - evidence,
             unreached=report["result"]["unreached"],
+            guessed=bool(found) and GUESSED.issuperset(found),
             versions={name: report["versions"][name] for name in ("reflcolor", "blender") if report["versions"][name]},
         )
     except (KeyError, TypeError) as error:

@@ -59,7 +59,11 @@ def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(
             "reflectance": list(colorization.normalization["reflectance"]),
             "range_m": list(colorization.normalization["range"]),
         },
-        "result": {"colored": colored, "unreached": scan["returns"] - colored},
+        "result": {
+            "colored": colored,
+            "unreached": scan["returns"] - colored,
+            "guessed": colorization.seeds.all_guessed,
+        },
         "method": colorization.method,
         "warnings": [*noticed, *colorization.warnings],
         "inputs": list(inputs),

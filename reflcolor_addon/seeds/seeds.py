@@ -13,7 +13,7 @@ from ..errors import SeedsError
 from ..files.atomic import written_atomically
 from ..files.images import read_image
 from ..messages import Message
-from .sources import SOURCES
+from .sources import GUESSED, SOURCES
 
 FORMAT = "reflcolor-seeds"
 VERSION = 1
@@ -88,6 +88,11 @@ class Seeds:
 
     def __len__(self):
         return self.rows.size
+
+    @property
+    def all_guessed(self):
+        """True where no color was picked by a person or seen by a photo that was verified."""
+        return len(self) > 0 and GUESSED.issuperset(self.reason)
 
     def chosen(self, indices):
         """Return the seeds of these indices, in their order."""

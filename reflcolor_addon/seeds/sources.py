@@ -21,6 +21,8 @@ class Source:
         Of its lines in a picture of matches, 0..255.
     found : bool
         Whether the program found the color, not a person.
+    guessed : bool
+        Whether nobody saw the color there: it is from likeness alone.
     """
 
     name: str
@@ -30,6 +32,7 @@ class Source:
     counted: str
     color: tuple[int, int, int]
     found: bool = True
+    guessed: bool = False
 
 
 HAND = "hand"
@@ -69,11 +72,14 @@ SOURCES = {
             "found by likeness",
             "{count} seeds found by likeness",
             (240, 180, 40),
+            guessed=True,
         ),
     )
 }
 FOUND = frozenset(name for name, source in SOURCES.items() if source.found)
 """Sources of the program's own."""
+GUESSED = frozenset(name for name, source in SOURCES.items() if source.guessed)
+"""Sources that are no evidence."""
 IN_PHOTO = "photo"
 """What a report calls seeds that a person picked in a photo."""
 PICKED_IN_PHOTO = Source(

@@ -78,7 +78,13 @@ def _entries(report, found):
     return [
         ("colorized", [found.created.replace("T", " ").replace("Z", " UTC")] if found.created else []),
         ("scan", [f"{scan['name']}{place}", _size(scan)]),
-        ("result", [f"{report['result']['colored']} pixels colored, {found.unreached} left gray"]),
+        (
+            "result",
+            [
+                f"{report['result']['colored']} pixels colored, {found.unreached} left gray",
+                *(["all colors are guesses"] if found.guessed else []),
+            ],
+        ),
         ("seeds", [f"{count} {source}: {EVIDENCE[source].said}" for source, count in found.sources.items()]),
         ("photos", [f"{photo['name']}: {photo['note']}" for photo in report["photos"]]),
         ("settings", [f"{name} {'all' if value is None else value}" for name, value in report["settings"].items()]),
