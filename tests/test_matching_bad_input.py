@@ -86,3 +86,22 @@ def test_a_photo_of_sixteen_pixels_a_side_gives_seeds(corner):
     matching = match_photos(corner, [tiny], Settings(slic_segments=40, guess=True))
     assert not matching.photos[0].verified
     assert len(matching.seeds) > 10
+
+
+def test_a_scan_of_few_pixels_cannot_be_tested_and_that_is_said(photo):
+    scan = painted_room.scan(rows=12, columns=40, step_deg=1.5)
+    matching = match_photos(scan, [photo], Settings(slic_segments=40))
+    (report,) = matching.photos
+    assert not report.verified
+    assert not report.tested
+    assert report.note.startswith("cannot be tested: the scan has ")
+    assert any(
+        warning.startswith("room: photo 1 cannot be tested (the scan has ") and "pairs by hand" in warning
+        for warning in matching.warnings
+    )
+
+
+def test_a_photo_of_one_tone_cannot_be_tested(room):
+    (report,) = match_photos(room, [np.full((90, 120, 3), 130, np.uint8)], Settings(slic_segments=40)).photos
+    assert not report.tested
+    assert report.note == "cannot be tested: the photo is of one tone"

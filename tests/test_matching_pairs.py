@@ -6,6 +6,8 @@ import pytest
 
 from reflcolor_addon.matching.photo_image import PhotoImage
 from reflcolor_addon.matching.registration.pairs import camera_from_pairs
+from reflcolor_addon.matching.registration.refinement import HandPairs, fitted, tightened
+from reflcolor_addon.matching.registration.tiles import Surfaces
 
 PHOTO = PhotoImage("photo", np.zeros((360, 480, 3), np.uint8))
 POINTS = np.array([
@@ -63,3 +65,21 @@ def test_three_pairs_are_too_few(camera):
 def test_pairs_that_no_camera_sees_so_are_refused():
     xy = np.random.default_rng(0).uniform(0, 360, (len(POINTS), 2))
     assert camera_from_pairs(POINTS, xy, PHOTO)[0] is None
+
+
+def test_pairs_hold_a_camera_that_the_tiles_lead_away(camera):
+    # A hundred tiles that all would have the photo moved by five pixels to the right; the pairs are a pixel off.
+    rng = np.random.default_rng(0)
+    points = rng.uniform([-2, 4, -1], [2, 6, 1], (100, 3))
+    shift = np.arange(17) - 8.0
+    peak = np.exp(-((shift[:, None]) ** 2 + (shift[None] - 5) ** 2) / 8)
+    scores = np.repeat(((peak - peak.mean()) / peak.std()).astype(np.float32)[None], 100, axis=0)
+    places, inverse = camera.project(points)[0], np.array([np.eye(2)] * 100)
+    found = Surfaces(scores, points, places, inverse, np.zeros((100, 2), int), 5.0)
+    pairs = HandPairs(POINTS, camera.project(POINTS)[0] + rng.normal(0, 1, (len(POINTS), 2)), 0.3)
+    moved = {}
+    for name, held in (("free", None), ("held", pairs)):
+        fit, _ = fitted(found, camera, camera.POSE, blur=1.0, spread=0.5, rng=np.random.default_rng(0), pairs=held)
+        moved[name] = np.abs((tightened(found, fit, fit.POSE, held).project(points)[0] - places)[:, 0]).mean()
+    assert moved["free"] > 4
+    assert moved["held"] < 2
