@@ -154,6 +154,8 @@ def right(scan_name):
         own = BILDSTEIN.index(scan_name[-2:])
         for other in BILDSTEIN[max(0, own - 1) : own] + BILDSTEIN[own + 1 : own + 2]:
             yield "turned", f"view {other}", real_scans.load(f"bildstein_{other}", DATA).color
+    if scan_name == "bildstein_25":
+        yield from (("resized", name, rgb) for name, rgb in _resized(real_scans.load("bildstein_20", DATA).color))
     if scan_name == "k4a":
         yield "beside", "k4a photo", read_image(K4A_PHOTO)
     if scan_name.removesuffix("_all_around") in PAIRS:
@@ -161,7 +163,22 @@ def right(scan_name):
         yield "all around" if name != scan_name else "pair", name, photographs()[name]
 
 
-RIGHT = ("straight", "warped", "warped-mild", "turned", "beside", "pair", "all around")
+RIGHT = ("straight", "warped", "warped-mild", "turned", "resized", "beside", "pair", "all around")
+
+
+def _resized(rgb):
+    """A picture of 360 pixels enlarged, up to 60 megapixels, and stored as JPEG: names and images."""
+    height, width = rgb.shape[:2]
+    for factor, kind, name in (
+        (2, cv2.INTER_CUBIC, "twice"),
+        (6, cv2.INTER_CUBIC, "six times"),
+        (6, cv2.INTER_LANCZOS4, "six times, Lanczos"),
+        (np.sqrt(60e6 / (height * width)), cv2.INTER_LINEAR, "60 megapixels"),
+    ):
+        yield name, cv2.resize(rgb, (round(width * factor), round(height * factor)), interpolation=kind)
+    for quality in (70, 85, 100):
+        data = cv2.imencode(".jpg", rgb[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])[1]
+        yield f"JPEG {quality}", cv2.imdecode(data, cv2.IMREAD_COLOR)[..., ::-1].copy()
 
 
 def off(scan_name, model):

@@ -28,13 +28,13 @@ from .verification import (
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
 # Pixels, tile, radius, blur and spread from guess to guess: a direction from the scanner is found nearly exactly, and
 # weak evidence shows on fine levels only; a place aside is found roughly.
-_FROM_SCANNER = ([(1.0, 32, 8, 2.0, 0.5)], [(0.6, TILE, 8, 2.0, 0.5)])
+_FROM_SCANNER = ([(1.0, 24, 8, 2.0, 0.5)], [(0.6, TILE, 8, 2.0, 0.5)])
 _FROM_ASIDE = ([(*_COARSE, 10, 1.5, 1.2)], [(*_MIDDLE, 10, 1.0, 0.8)])
 # From this multiple of the needed evidence on, nothing better is looked for.
 _CONVINCING = 2.0
 _GUESSES = 14
 _TRIED = 5
-_ROUNDS, _PROMISING = 2, 0.2
+_ROUNDS, _PROMISING, _WORTH = 2, 0.2, 1.05
 # A guess is refined with all there is only if its tiles tell something, a second only if it is nearly as good.
 _TELLING, _NEARLY = 1.0, 0.6
 # Of a homography whose tiles are in place no oftener than by chance nothing is hoped for.
@@ -282,8 +282,9 @@ def _tried(views, photo, guesses, aside, step):
         for model, _ in promising:
             step(f"{photo.name}: trying directions")
             free = model.POSE if aside else model.ROTATION
-            tried.append(refined(views, photo, model, levels, free=free, rng=rng))
-        tried = [pair for pair in tried if pair[0] is not None]
+            better, proof = refined(views, photo, model, levels, free=free, rng=rng)
+            # What these pixels are too coarse for may show on the next level.
+            tried.append((model if better is None else better, proof))
         # Large tiles of coarse pixels seldom have but one best place: their strength is all that tells.
         promising = sorted(tried, key=lambda pair: -pair[1].strength)[:_TRIED]
     best = Registration.nothing("search")
@@ -295,13 +296,18 @@ def _tried(views, photo, guesses, aside, step):
             found = Registration(*finely(views, photo, start, rng, turned_only=turned_only), "search")
             if found.better_than(best):
                 best = found
-    # A camera far from its guess needs several rounds: what it sees changes while it moves.
+    # A camera far from its guess needs several rounds, also with larger pixels: what it sees changes while it moves.
     for _ in range(_ROUNDS):
         if best.evidence.rank < _PROMISING:
             break
-        step(f"{photo.name}: refining")
-        model, proof = finely(views, photo, best.model, rng)
-        if proof.rank <= 1.05 * best.evidence.rank:
+        before = best
+        wider, _ = refined(views, photo, best.model, [(*_MIDDLE, 10, 1.0, 0.8)], free=best.model.POSE, rng=rng)
+        for start in (before.model, wider):
+            step(f"{photo.name}: refining")
+            if start is not None:
+                found = Registration(*finely(views, photo, start, rng), "search")
+                if found.evidence.rank > _WORTH * best.evidence.rank:
+                    best = found
+        if best is before:
             break
-        best = Registration(model, proof, "search")
     return best

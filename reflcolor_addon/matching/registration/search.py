@@ -123,7 +123,7 @@ class Search:
 
     def _sphere(self, center, step_deg, window=None):
         image = self._views.image(0.5)
-        return SphereMap(image.points[image.valid], image.reflectance[image.valid], center, step_deg, window)
+        return SphereMap(image.surface[image.valid], image.reflectance[image.valid], center, step_deg, window)
 
     def _near(self, guess, focals, rolls, count=1):
         """Guesses from the same place in nearly the same direction."""

@@ -35,7 +35,7 @@ _ANYWHERE_SHARE = 0.2
 # they need, as a share of what all tiles do.
 _APART, _DISTINCT = 3.0, 0.3
 _NEEDED_OF_DISTINCT = 0.7
-_ACCEPTED_MEAN = 0.85
+_ACCEPTED_MEAN = 0.7
 # Tiles half overlap: four in place tell what one point does, and a camera that may be anywhere goes through any four.
 LEAST_PARTS, _TILES_ANYWHERE = 10, 30
 # Of a photo whose parts are exchanged: whether it is mirrored, and what share of it is moved down and to the right.
