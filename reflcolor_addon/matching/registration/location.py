@@ -15,6 +15,9 @@ from .registration import Registration, confirmed, register
 
 # Nobody clicks better, as a share of the photo's longer side.
 _SUREST_CLICK = 0.001
+# How many tiles lie over each other, of those that say something; and a power: where pixels are drawn out, the tiles'
+# errors do not average out, because an edge is known to a pixel of the grid only.
+_OVERLAP, _TOGETHER = 3.0, 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,7 +152,9 @@ def _by_hand(scan, views, hand, photo, step):
         return replace(nothing, warnings=(warning,))
     step(f"{photo.name}: refining the picked pairs")
     kept = np.setdiff1d(np.arange(count), left_out)
-    picked = HandPairs(points[kept], hand.photo_xy[mine][kept], _doubt(pixels, len(kept), photo))
+    picked = HandPairs(
+        points[kept], hand.photo_xy[mine][kept], _doubt(pixels, len(kept), photo), _OVERLAP * views.repeats
+    )
     refined = confirmed(views, photo, camera, picked)
     registration = refined if refined.accepted else Registration(camera, refined.evidence, "hand")
     slips, warnings = "", ()

@@ -18,7 +18,7 @@ _GENERATIONS = 14
 _NEAR_TOP = 3.0
 # Holds what the tiles do not tell, against their pixels: a unit of change is a pixel's fiftieth.
 _HOLD = 0.02
-# Pixels by which the top of a tile's surface is off; overlapping tiles are off together.
+# Pixels by which the top of a tile's surface is off.
 _TOP_OFF = 1.5
 
 
@@ -32,11 +32,15 @@ class HandPairs:
         Pixels from the photo's top left corner.
     sigma : float
         How far they are off, in pixels of the photo.
+    weight : float
+        Of a pair beside a tile. Tiles overlap, and where the scan's image is finer than its grid, what they say is
+        said several times.
     """
 
     points: np.ndarray
     xy: np.ndarray
     sigma: float
+    weight: float = 1.0
 
     def off(self, model):
         """Return how far the camera is off at the pairs, in their own deviations (root mean square)."""
@@ -80,7 +84,7 @@ def fitted(surfaces, model, free, *, blur, spread, rng, pairs=None):
         shift = np.einsum("nij,knj->kni", surfaces.inverse, np.nan_to_num(shifted, nan=1e6))
         worth = looked_up(scores, shift).mean(axis=1) - PENALTY * (candidates**2).sum(axis=1)
         if pairs is not None:
-            worth -= pairs.doubt(model, candidates, surfaces.scale) / len(scores)
+            worth -= pairs.weight * pairs.doubt(model, candidates, surfaces.scale) / len(scores)
         return worth
 
     parents = np.zeros((1, count))
@@ -123,7 +127,7 @@ def tightened(surfaces, model, free, pairs=None):
         held = [pixels.ravel(), _HOLD * np.sqrt(len(sites)) * values]
         if pairs is not None:
             picked = model.projections(candidate(values)[None], pairs.points, surfaces.scale)[0] - pairs.xy
-            held.append(_TOP_OFF / pairs.sigma * np.nan_to_num(picked, nan=1e3).ravel())
+            held.append(np.sqrt(pairs.weight) * _TOP_OFF / pairs.sigma * np.nan_to_num(picked, nan=1e3).ravel())
         return np.concatenate(held)
 
     solved = least_squares(off, np.zeros(len(free)), loss="soft_l1", f_scale=0.7, max_nfev=60)

@@ -124,6 +124,11 @@ class ScanViews:
             images.append(self.image(0.0).reflectance)
         return [features.ScanPoints(image, self.scan.shape) for image in images]
 
+    @property
+    def repeats(self):
+        """How many pixels of the finest image stand for one measurement."""
+        return self.image(_FINE[0]).pixels_per_measurement
+
     def image(self, share):
         """The `ScanImage` whose pixels are ``share`` of the search's."""
         return self._once(("image", share), lambda: ScanImage(self.closed, self.ranks, self.step_deg * share))
