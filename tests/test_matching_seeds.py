@@ -194,8 +194,11 @@ def test_scans_of_a_site_share_what_they_learn(room, turned):
 
 def test_a_scan_that_no_photo_shows_is_guessed_from_the_others_and_told(monkeypatch, room, turned):
     # Here the reflectance tells the color, red for bright and blue for dark.
-    room = replace(room, reflectance=cv2.cvtColor(room.color, cv2.COLOR_RGB2GRAY).astype(np.float32))
-    gray = cv2.cvtColor(turned, cv2.COLOR_RGB2GRAY)
+    def two_tones(rgb):
+        return np.where(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY) > 140, 210, 50).astype(np.uint8)
+
+    room = replace(room, reflectance=two_tones(room.color).astype(np.float32))
+    gray = two_tones(turned)
     photo = np.dstack([gray, np.full_like(gray, 90), 255 - gray])
 
     def register(views, photo, *, step):

@@ -235,12 +235,16 @@ def finely(views, photo, model, rng, *, turned_only=False, pairs=None):
 
     With ``turned_only`` a camera stays where it is: where that is right, nothing is as sure.
     """
+    last = model.TURNED if turned_only else model.ALL
+    if pairs is not None and views.repeats > 1:
+        # A few pairs bend to a lens, and drawn out tiles do not hold it.
+        last = model.POSE
     if model.kind == "homography":
         stages = [(model.ALL, [(*_FINE, 6, 0.5, 0.4)])]
     elif turned_only:
         stages = [(model.ROTATION, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 6, 0.5, 0.3)])]
     else:
-        stages = [(model.POSE, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)]), (model.ALL, [(*_FINE, 6, 0.5, 0.2)])]
+        stages = [(model.POSE, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)]), (last, [(*_FINE, 6, 0.5, 0.2)])]
     for free, levels in stages:
         model = _led(views, photo, model, levels, free, rng, pairs)
         if model is None:
@@ -250,7 +254,7 @@ def finely(views, photo, model, rng, *, turned_only=False, pairs=None):
         found = surfaces(image, tiles, photo, model, RADIUS)
         if found is None:
             return None, NO_EVIDENCE
-        model = tightened(found, model, model.TURNED if turned_only else model.ALL, pairs)
+        model = tightened(found, model, last, pairs)
     return model, evidence(image, photo, model)
 
 
