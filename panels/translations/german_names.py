@@ -200,6 +200,7 @@ _CHOICES = {
     "Nearest": "Nächste",
     "Nearest Seed": "Nächster Saatpunkt",
     "None": "Keine",
+    "Natural": "Natürlich",
     "Paper": "Veröffentlichung",
     "Pick": "Aufnehmen",
     "Pinhole": "Lochkamera",

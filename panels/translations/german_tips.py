@@ -182,7 +182,7 @@ _SETTINGS = {
         "nicht in der Veröffentlichung"
     ),
     "As Enhanced, and as light as the photo: light and dark are spread from the seeds, too": (
-        "Wie Enhanced, und so hell wie das Foto: auch Hell und Dunkel breiten sich von den Saatpunkten aus"
+        "Wie Verbessert, und so hell wie das Foto: auch Hell und Dunkel breiten sich von den Saatpunkten aus"
     ),
     "How fast a seed's influence falls with the geodesic distance; higher makes borders sharper": (
         "Wie schnell der Einfluss eines Saatpunkts mit der geodätischen Entfernung fällt; höher macht Grenzen schärfer"
