@@ -19,8 +19,8 @@ lock() { # OUTPUT [ARGUMENT]...
     shift
     # shellcheck disable=SC2086
     "$VENV/bin/uv" pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
-        $unused --output-file "$output" "$@"
+        --override requirements/numpy.in $unused --output-file "$output" "$@"
 }
 
 lock requirements/wheels.txt --no-emit-package numpy requirements/wheels.in "$@"
-lock requirements/dev.txt --constraints requirements/wheels.txt requirements/wheels.in requirements/dev.in "$@"
+lock requirements/dev.txt --constraints requirements/wheels.txt requirements/wheels.in requirements/numpy.in requirements/dev.in "$@"
