@@ -1,6 +1,6 @@
 # make setup   makes .venv: a Python 3.13 or 3.11, the bpy that fits it, and all that requirements/dev.txt pins
 # make demo    sets up, builds, and colorizes the example in examples/cones; the results are in demo/
-# make test    sets up, checks the style, builds the zip and tests it (in CI with every Python that is there)
+# make test    sets up, checks style and types, builds the zip and tests it (in CI with every Python that is there)
 # make test-window  tests in the window of a real Blender: BLENDER=/path/to/blender names one
 # make build   the extension's zip for this machine and this Python, in dist/
 # make dist    the zip to hand out: for this platform, with the wheels of every Python that a Blender runs
@@ -8,7 +8,7 @@
 # make bench   how fast the engine is, beside others (python -m benchmarks.geodesic); a quarter of an hour
 # make bench-job  the whole job, part by part, beside an older build (python -m benchmarks.job); hours; BASE=checkout
 # make fuzz    random images through the kernel under sanitizers (tools/fuzz_kernel.sh); a few minutes
-# make lint    the style alone;  make format  mends it
+# make check   style and types alone;  make format  mends the style
 # make clean   removes what was built;  make distclean  the environments, too
 #
 # PYTHON=/path/to/python names the Python to use; VENV=folder the environment.
@@ -21,7 +21,13 @@ FOR_PYTHON ?=
 BASE ?=
 RUN = $(VENV)/bin/python
 
-.PHONY: help setup kernel build dist dist-all demo bench bench-job fuzz lint format test test-one test-all test-window lock clean distclean
+# What test-one runs (tools/run_tests.sh): plain, smoke, blender.
+KINDS ?= plain blender
+# The newest bpy beside the LTS that an environment has, and where it is put.
+NEWEST_BPY = 5.3.0
+BPY = build/bpy-$(NEWEST_BPY)
+
+.PHONY: help setup kernel build dist dist-all demo bench bench-job fuzz check format test test-one test-newest test-all test-window lock clean distclean
 
 help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
@@ -56,9 +62,10 @@ bench-job: build
 fuzz:
 	@tools/fuzz_kernel.sh
 
-lint: setup
+check: setup
 	@$(VENV)/bin/ruff check
 	@$(VENV)/bin/ruff format --check
+	@$(VENV)/bin/mypy
 
 format: setup
 	@$(VENV)/bin/ruff check --fix
@@ -67,13 +74,23 @@ format: setup
 ifeq ($(CI),true)
 test: test-all
 else
-test: test-one
+test: check test-one
 endif
 
-test-one: lint build
-	@tools/run_tests.sh $(RUN)
+test-one: build
+	@tools/run_tests.sh $(RUN) $(KINDS)
 
-# Two LTS Blenders, two Pythons: one after the other, each in its own environment, whichever are there.
+# The tests in Blender with the newest bpy, in the same environment.
+test-newest: build $(BPY)/stamp
+	@BPY=$(BPY) tools/run_tests.sh $(RUN) blender
+
+$(BPY)/stamp: requirements/bpy-newest.txt
+	@rm -rf $(BPY)
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --no-deps --require-hashes --only-binary=:all: \
+		--target $(BPY) --requirement requirements/bpy-newest.txt
+	@touch $@
+
+# Two LTS Blenders and the newest, two Pythons, one after the other, whichever are there.
 test-all:
 	@tools/test_all.sh
 

@@ -48,7 +48,7 @@ def _operator(bpy, idname: str):
 def _in_title_case(text: str) -> bool:
     words = re.findall(r"[^\s/()-]+", text)
     return all(
-        word[0].isupper() or not word[0].isalpha() or (word in SMALL_WORDS and index > 0)
+        any(char.isupper() for char in word[:3]) or not word[0].isalpha() or (word in SMALL_WORDS and index > 0)
         for index, word in enumerate(words)
     )
 

@@ -24,3 +24,6 @@ lock() { # OUTPUT [ARGUMENT]...
 
 lock requirements/wheels.txt --no-emit-package numpy requirements/wheels.in "$@"
 lock requirements/dev.txt --constraints requirements/wheels.txt requirements/wheels.in requirements/numpy.in requirements/dev.in "$@"
+# The newest Blender beside the LTS ones: bpy alone, into a folder of its own.
+"$VENV/bin/uv" pip compile --quiet --python-version 3.13 --universal --no-deps --generate-hashes --no-header \
+    --no-annotate --output-file requirements/bpy-newest.txt requirements/bpy-newest.in "$@"

@@ -1,19 +1,32 @@
 #!/bin/sh
-# test_all.sh   tests with Python 3.13 (bpy 5.2 LTS) and with 3.11 (bpy 4.5 LTS), with each one that this machine has;
-# both are tested, whatever the first one finds.
+# test_all.sh   what CI tests, with each Python that this machine has: the tests that need no Blender once, a few of
+# them with the other Python; those in Blender with bpy 5.2 LTS and the newest bpy (Python 3.13) and bpy 4.5 LTS (3.11).
+# All are run, whatever the first ones find.
 set -u
 cd "$(dirname "$0")/.."
 
-found=
 failed=
+tested=
+run() { # VERSION TARGET [KIND]...
+    version=$1 target=$2
+    shift 2
+    echo "test: Python $version, $target${*:+ ($*)}"
+    "${MAKE:-make}" --no-print-directory "$target" VENV=".venv-$version" FOR_PYTHON="$version" KINDS="$*" \
+        || failed="$failed $version:$target"
+}
+
+kinds="plain blender"
 for version in 3.13 3.11; do
-    if tools/find_python.sh "$version" >/dev/null 2>&1; then
-        found=1
-        echo "test: Python $version"
-        "${MAKE:-make}" --no-print-directory test-one VENV=".venv-$version" FOR_PYTHON="$version" || failed="$failed $version"
-    else
+    if ! tools/find_python.sh "$version" >/dev/null 2>&1; then
         echo "test: no Python $version here, left out"
+        continue
     fi
+    [ -n "$tested" ] || run "$version" check
+    # shellcheck disable=SC2086
+    run "$version" test-one $kinds
+    [ "$version" != 3.13 ] || run "$version" test-newest
+    tested=1
+    kinds="smoke blender"
 done
-[ -n "$found" ] || tools/find_python.sh || exit 1
+[ -n "$tested" ] || tools/find_python.sh || exit 1
 [ -z "$failed" ] || { echo "test: failed with Python$failed" >&2; exit 1; }

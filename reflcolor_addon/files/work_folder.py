@@ -17,7 +17,7 @@ PREFIX = ".reflcolor-"
 _LOCK = ".reflcolor-owner"
 _TRIES = 100
 # Folders that this process has already cleaned; what is left there later was left by another.
-_cleaned = set()
+_cleaned: set[Path] = set()
 
 
 @contextmanager

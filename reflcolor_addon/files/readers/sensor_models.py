@@ -77,7 +77,7 @@ class Spherical:
         )
 
 
-def _undistorted(x_seen, y_seen, coefficients):
+def _undistorted(x_seen, y_seen, coefficients: tuple[float, ...]):
     """Solve the lens model for the ideal image coordinates; NaN where it has no solution, outside of its validity."""
     k1, k2, p1, p2, k3, k4, k5, k6 = (*coefficients, *[0.0] * (8 - len(coefficients)))
     x_seen, y_seen = np.broadcast_arrays(x_seen, y_seen)
