@@ -234,8 +234,10 @@ def test_a_linked_scan_says_that_its_seeds_are_another_files(scan, library):
 
 
 def test_seeds_added_to_a_library_override_are_saved_with_it(scan, library, tmp_path):
-    obj = link(scan, library).override_create(remap_local_usages=True)
-    scan.context.collection.objects.link(obj)
+    linked = link(scan, library)
+    scan.context.collection.objects.link(linked)
+    # As in the window, of an object in the scene, where the override takes its place.
+    obj = linked.override_create(remap_local_usages=True)
     scan.context.view_layer.objects.active = obj
     scan.ops.reflcolor.add_seed(row=2, col=3, color=(0, 1, 0))
     path = tmp_path / "shot.blend"
