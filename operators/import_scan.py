@@ -110,6 +110,10 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
     center_y: FloatProperty(
         name="Center Y", description="Principal point down, in pixels from the center of the first row", default=240
     )
+    outside_files: BoolProperty(
+        name="Outside Files",
+        description="Let a .scan.json name images outside of its own folder, for files whose sender is trusted",
+    )
     swap_images: BoolProperty(name="Swap Images", description="Take the other one of the two images as the range image")
 
     def invoke(self, context, event):
@@ -122,6 +126,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         paths = [Path(self.directory, file.name) for file in self.files if file.name] or [Path(self.filepath)]
         pair = [path for path in paths if path.suffix.lower() in IMAGE_SUFFIXES]
         sensor, range_scale, swap = self._sensor_model(), self.range_scale, self.swap_images
+        outside = self.outside_files
         flips = {"vertical": self.flip_vertical, "horizontal": self.flip_horizontal}
         options = {
             "max_incidence_deg": degrees(self.max_incidence),
@@ -135,7 +140,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
             return [imported for path in files for imported in read(path, progress, cancelled)]
 
         def read(path, progress, cancelled):
-            scans = read_scans(path, progress=progress, cancelled=cancelled)
+            scans = read_scans(path, outside=outside, progress=progress, cancelled=cancelled)
             inputs = [input_entry("scan", file, cancelled) for file in scan_files(path)]
             for index, scan in enumerate(scans, 1):
                 if any(flips.values()):
@@ -173,6 +178,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         layout.prop(self, "max_incidence")
         layout.prop(self, "flip_vertical")
         layout.prop(self, "flip_horizontal")
+        layout.prop(self, "outside_files")
         header, body = layout.panel("REFLCOLOR_import_image_pair", default_closed=True)
         header.label(text="Image Pair")
         if body is None:

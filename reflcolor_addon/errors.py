@@ -6,7 +6,7 @@ Anything that is not one of these is a defect of the package and surfaces with i
     raise ScanError("{file}: line {line}: expected 4 or 7 values, found {count}", file=path.name, line=12, count=5)
 """
 
-from .messages import Message
+from .messages import LONGEST_LINE, Message, one_line
 
 
 class ReflcolorError(ValueError):
@@ -24,7 +24,7 @@ class ReflcolorError(ValueError):
     """
 
     def __init__(self, template="", /, **values):
-        self.message = template if isinstance(template, Message) and not values else Message(template, **values)
+        self.message = _message(template, values)
         super().__init__(self.message)
 
 
@@ -56,5 +56,11 @@ class UsageError(Exception):
     """A command was given in a way that cannot mean anything; takes what `ReflcolorError` takes."""
 
     def __init__(self, template="", /, **values):
-        self.message = template if isinstance(template, Message) and not values else Message(template, **values)
+        self.message = _message(template, values)
         super().__init__(self.message)
+
+
+def _message(template, values):
+    if values:
+        return Message(template, **values)
+    return template if isinstance(template, Message) else Message(one_line(template, LONGEST_LINE))

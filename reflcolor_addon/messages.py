@@ -1,5 +1,22 @@
 """Texts for people as data: a template and its values stay apart until shown, so that they can be translated."""
 
+from pathlib import PurePath
+
+LONGEST_VALUE, LONGEST_LINE = 300, 2000
+"""Characters of a value in a message, and of a whole line: what a file or its name holds may be of any length."""
+
+
+def one_line(text, longest=LONGEST_VALUE):
+    """Return a text as a line of at most so many characters.
+
+    What would end the line or steer a terminal is escaped; of a longer text the middle is left out.
+    """
+    half = (longest - 3) // 2
+    if len(text) > longest:
+        text = f"{text[:half]}...{text[-half:]}"
+    shown = "".join(char if char.isprintable() else char.encode("unicode_escape").decode("ascii") for char in text)
+    return shown if len(shown) <= longest else f"{shown[:half]}...{shown[-half:]}"
+
 
 class Message(str):
     """A line of text that remembers what it was made of.
@@ -13,7 +30,7 @@ class Message(str):
         English, with named places as in ``"{file}: line {line}: expected a number"``. Without values it is taken as it
         is, braces included.
     **values
-        What is put in the places; a value may be a Message itself.
+        What is put in the places; a value may be a Message itself. Texts and paths become `one_line` each.
 
     Attributes
     ----------
@@ -32,10 +49,17 @@ class Message(str):
     __slots__ = ("template", "values")
 
     def __new__(cls, template, /, **values):
+        values = {name: _tamed(value) for name, value in values.items()}
         message = super().__new__(cls, template.format(**values) if values else template)
         message.template = template
         message.values = values
         return message
+
+
+def _tamed(value):
+    if isinstance(value, Message):
+        return value
+    return one_line(str(value)) if isinstance(value, str | PurePath) else value
 
 
 def translated(text, look_up):

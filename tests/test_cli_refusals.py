@@ -133,7 +133,7 @@ CASES = SCAN_CASES | {
     "negative seed": (with_seeds({"row": 0, "col": -1, "rgb": [1, 2, 3]}), "column -1 is outside"),
     "no seeds": (with_seeds(), "no seeds"),
     "seeds without color": (with_seeds({"row": 0, "col": 0}), "seeds.json: seed 1: expected a color"),
-    "seeds missing": (lambda folder: (folder / "seeds.json").unlink(), "seeds.json: cannot be read"),
+    "seeds missing": (lambda folder: (folder / "seeds.json").unlink(), "seeds.json: no such file"),
     "seeds are no JSON": (lambda folder: (folder / "seeds.json").write_text("row, col"), "seeds.json: line 1"),
     "photo that is no image": (no_image, "view.jpg"),
     "photo that is missing": (
@@ -172,7 +172,7 @@ def test_an_e57_with_a_bad_checksum_is_said_in_one_line(run_cli, cli_folder):
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        (("--photo", "gone.jpg"), "gone.jpg: no such image"),
+        (("--photo", "gone.jpg"), "gone.jpg: no such file"),
         (("--photo", "seeds.json"), "seeds.json: is not an image"),
         (("--photo", "view.png"), "view.png"),
         (("-o", "gone/more.png"), "there is no folder gone; make it first"),

@@ -168,7 +168,7 @@ def test_the_verb_takes_one_scan_of_several(run_cli, cli_folder, garage):
     ("arguments", "status", "part"),
     [
         (("garage.ptx",), 2, "RESULT.png"),
-        (("garage.ptx", "gone.png"), 1, "gone.png: no such image"),
+        (("garage.ptx", "gone.png"), 1, "gone.png: no such file"),
         (("garage.ptx", "garage.ptx"), 1, "garage.ptx: is not an image"),
         (("garage.ptx", "small.png"), 1, "small.png: is 4 x 3 pixels, but the scan garage has 10 columns x 6 rows"),
         (("garage.ptx", "result.png", "--truth", "small.png"), 1, "small.png: is 4 x 3 pixels"),

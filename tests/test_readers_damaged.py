@@ -94,7 +94,7 @@ def test_what_is_no_file_or_no_scan_file_is_told(tmp_path):
     for suffix in (".ptx", ".e57", ".scan.json", ".txt"):
         path = tmp_path / f"nothing{suffix}"
         path.touch()
-        assert outcome(path) == f"nothing{suffix}: is empty"
+        assert outcome(path) == f"{path}: is empty, expected a scan file (.ptx, .e57, .scan.json)"
     photo = tmp_path / "photo.png"
     photo.write_bytes(b"\x89PNG")
     assert outcome(photo) == "photo.png: not a scan file by its name, expected one of .ptx, .e57, .scan.json"
@@ -122,7 +122,7 @@ def test_a_file_that_may_not_be_read_is_told(tmp_path, monkeypatch):
     def refuse(*_args, **_options):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "open", refuse)
+    monkeypatch.setattr(os, "open", refuse)
     assert outcome(path) == f"{path}: cannot be read (Permission denied)"
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from sample_scans import intensity_of, ptx_text, room_points
 
 from reflcolor_addon.errors import Cancelled, ScanError
-from reflcolor_addon.files.readers import ptx, read_scans
+from reflcolor_addon.files.readers import read_scans
 
 POINTS = room_points()
 INTENSITY = intensity_of(POINTS)
@@ -293,7 +293,7 @@ def test_damaged_text_never_leaves_the_error_family(tmp_path_factory, data):
     path = tmp_path_factory.getbasetemp() / "damaged.ptx"
     path.write_bytes(text)
     try:
-        scans = ptx.read_ptx(path)
+        scans = read_scans(path)
     except ScanError as error:
         assert "\n" not in str(error)
     else:

@@ -104,7 +104,7 @@ def test_it_is_json_and_the_same_each_time(report_of):
 
 
 def test_an_input_that_is_gone_is_named(tmp_path):
-    with pytest.raises(ReflcolorError, match=r"gone\.ptx: can no longer be read"):
+    with pytest.raises(ReflcolorError, match=r"gone\.ptx: no such file"):
         input_entry("scan", tmp_path / "gone.ptx")
 
 

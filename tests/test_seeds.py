@@ -100,7 +100,7 @@ def test_a_file_with_a_byte_order_mark_is_read(seeds_path):
 @pytest.mark.parametrize(
     ("content", "problem"),
     [
-        (b"", "line 1, column 1: expected a JSON file of seeds"),
+        (b"", "is empty, expected a JSON file of seeds"),
         (b'{"format": "reflcolor-seeds",\n "version": }', "line 2, column 13: expected a JSON file of seeds"),
         (b"\xff\xfe\x00", "found bytes that are no text"),
         (b"[" * 100_000, "expected a JSON file of seeds"),
@@ -170,7 +170,7 @@ def test_a_photo_that_is_no_image_is_refused(seeds_path, tmp_path):
 @pytest.mark.parametrize("kind", ["missing", "directory"])
 def test_a_file_that_cannot_be_opened_is_named(tmp_path, kind):
     path = tmp_path if kind == "directory" else tmp_path / "seeds.json"
-    with pytest.raises(SeedsError, match="cannot be read"):
+    with pytest.raises(SeedsError, match=r"(no such file|is a directory), expected a JSON file of seeds"):
         Seeds.load(path)
 
 
@@ -219,8 +219,10 @@ def test_many_seeds_without_return_are_asked_after():
     scan = scan_from_ranges(np.full((5, 8), 2.0), np.ones((5, 8)), valid)
     seeds = Seeds([4, *[0] * 5], range(6), [[9, 9, 9]] * 6)
     _, warnings = seeds.placed_on(scan)
-    assert warnings[0] == f"5 of 6 seeds lie where {scan.name} has no return; are they of another scan?"
-    assert len(warnings) == 6
+    assert warnings == [
+        f"5 of 6 seeds lie where {scan.name} has no return, and were moved to the nearest pixel with one; "
+        "are they of another scan?"
+    ]
 
 
 @pytest.mark.parametrize("pixel", [(-1, 0), (6, 0), (0, -1), (0, 10), (10**8, 0)])

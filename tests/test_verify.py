@@ -77,7 +77,7 @@ def test_what_is_no_report_with_hashes_is_refused(run_cli, results, change, part
 
 
 def test_a_report_that_cannot_be_read_is_refused(run_cli, cli_folder):
-    assert_refused(run_cli("verify", "gone.json"), 1, "gone.json: cannot be read")
-    assert_refused(run_cli("verify", "garage.ptx"), 1, "garage.ptx: the provenance is no JSON")
+    assert_refused(run_cli("verify", "gone.json"), 1, "gone.json: no such file")
+    assert_refused(run_cli("verify", "garage.ptx"), 1, "garage.ptx: ", "expected a report in JSON")
     (cli_folder / "r.json").write_bytes(b"\xff\xfe")
-    assert_refused(run_cli("verify", "r.json"), 1, "r.json: is no text in UTF-8")
+    assert_refused(run_cli("verify", "r.json"), 1, "r.json: expected a report in JSON, found bytes that are no text")

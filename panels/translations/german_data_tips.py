@@ -130,6 +130,9 @@ _SCANS = {
     "Principal point down, in pixels from the center of the first row": (
         "Hauptpunkt in der Höhe, in Pixeln von der Mitte der ersten Zeile"
     ),
+    "Let a .scan.json name images outside of its own folder, for files whose sender is trusted": (
+        "Einer .scan.json erlauben, Bilder außerhalb ihres Ordners zu nennen; nur für Dateien aus sicherer Hand"
+    ),
     "Take the other one of the two images as the range image": "Das andere Bild als Entfernungsbild nehmen",
     "The scan's range as a picture": "Die Entfernung des Scans als Bild",
     "The scan's reflectance as a picture": "Die Reflektanz des Scans als Bild",

@@ -160,6 +160,7 @@ _PROPERTIES = {
     "Source": "Quelle",
     "Spacing": "Abstand",
     "Superpixels": "Superpixel",
+    "Outside Files": "Fremde Ordner",
     "Swap Images": "Bilder vertauschen",
     "Text": "Text",
     "Tone": "Tonwert",

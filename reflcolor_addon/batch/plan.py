@@ -70,6 +70,8 @@ class Plan:
         A file of seeds picked by hand, to find the others with.
     photos : tuple of Path
         Photos that the seeds name, or that seeds are found in.
+    outside_files : bool
+        Let a `.scan.json` name images outside of its own folder.
     """
 
     scans: tuple[Path, ...]
@@ -79,6 +81,7 @@ class Plan:
     seeds: Path | None = None
     hand: Path | None = None
     photos: tuple[Path, ...] = ()
+    outside_files: bool = False
 
     @property
     def needs_colors(self):

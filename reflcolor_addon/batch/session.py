@@ -59,9 +59,9 @@ class Session:
             raise Cancelled
         self.show(fraction, text)
 
-    def read_scans(self, path):
-        """Read all scans of a file, with progress."""
-        return read_scans(path, progress=self.progress, cancelled=self.cancelled)
+    def read_scans(self, path, *, outside=False):
+        """Read all scans of a file, with progress; ``outside`` as in `read_scans`."""
+        return read_scans(path, outside=outside, progress=self.progress, cancelled=self.cancelled)
 
 
 @contextmanager

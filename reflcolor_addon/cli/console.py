@@ -7,6 +7,7 @@ import time
 from contextlib import suppress
 
 from ..errors import OutputError
+from ..messages import LONGEST_LINE, one_line
 
 _REDRAW_S = 0.1
 
@@ -50,13 +51,13 @@ class Console:
         if not self._is_terminal or now < self._next_redraw:
             return
         self._next_redraw = now + _REDRAW_S
-        line = _single_line(f"{fraction:4.0%}  {text}")[: shutil.get_terminal_size().columns - 1]
+        line = one_line(f"{fraction:4.0%}  {text}", LONGEST_LINE)[: shutil.get_terminal_size().columns - 1]
         self._write(f"\r{line:<{self._shown}}")
         self._shown = len(line)
 
     def _line(self, text):
         self._clear()
-        self._write(_single_line(text) + "\n")
+        self._write(one_line(text, LONGEST_LINE) + "\n")
 
     def _clear(self):
         if self._shown:
@@ -68,11 +69,6 @@ class Console:
         with suppress(OSError):
             sys.stderr.write(_encodable(text, sys.stderr))
             sys.stderr.flush()
-
-
-def _single_line(text):
-    """The text with everything escaped that would end the line or steer a terminal: file names may hold anything."""
-    return "".join(char if char.isprintable() else char.encode("unicode_escape").decode("ascii") for char in text)
 
 
 def _encodable(text, stream):

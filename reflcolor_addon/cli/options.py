@@ -22,6 +22,16 @@ def add_scans(parser):
         help="scan file: .ptx, .e57 or .scan.json; of several, of one site, every scan is taken",
     )
     parser.add_argument("--scan", dest="wanted", metavar="NAME_OR_INDEX", help=_SCAN_HELP)
+    add_outside_files(parser)
+
+
+def add_outside_files(parser):
+    """What else than its own folder a side file may name."""
+    parser.add_argument(
+        "--outside-files",
+        action="store_true",
+        help="let a .scan.json name images outside of its own folder; without this none is opened there",
+    )
 
 
 def add_photos(parser, help_text):

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ImageError
+from .gate import contents
 
 _MAGIC = b"\x76\x2f\x31\x01"
 _TILED, _DEEP, _MULTIPART = 0x200, 0x800, 0x1000
@@ -14,6 +15,7 @@ _TYPES = (np.dtype("<u4"), np.dtype("<f2"), np.dtype("<f4"))
 _COMPRESSIONS = ("NONE", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB")
 _ROWS_PER_CHUNK = {"NONE": 1, "RLE": 1, "ZIPS": 1, "ZIP": 16}
 _MAX_PIXELS = 2**30
+_LARGEST_FILE = 1 << 36
 
 
 def is_exr(start):
@@ -39,36 +41,36 @@ def read_exr_channels(path):
     ImageError
         If the file cannot be read, is no EXR, is of a kind that is not read, or is cut short.
     """
-    path = Path(path)
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise ImageError(f"{path}: cannot be read ({error.strerror or error})") from None
+    return exr_channels(contents(path, "an EXR picture", error=ImageError, most=_LARGEST_FILE), Path(path).name)
+
+
+def exr_channels(data, name):
+    """Return what `read_exr_channels` does, of the bytes of a file and its name for messages."""
     if not is_exr(data):
-        raise ImageError(f"{path.name}: not an EXR picture by its first bytes")
+        raise ImageError("{file}: not an EXR picture by its first bytes", file=name)
     try:
-        return _channels(data, path)
+        return _channels(data, name)
     except (KeyError, IndexError, struct.error, zlib.error, ValueError, OverflowError) as error:
         if isinstance(error, ImageError):
             raise
-        raise ImageError(f"{path.name}: not a whole EXR picture: it is damaged or cut short") from None
+        raise ImageError("{file}: not a whole EXR picture: it is damaged or cut short", file=name) from None
     except MemoryError:
-        raise ImageError(f"{path.name}: does not fit into memory") from None
+        raise ImageError("{file}: does not fit into memory", file=name) from None
 
 
-def _channels(data, path):
+def _channels(data, name):
     flags, attributes, at = _header(data)
     for flag, kind in ((_TILED, "tiled"), (_DEEP, "deep"), (_MULTIPART, "in several parts")):
         if flags & flag:
-            raise ImageError(f"{path.name}: is {kind}, expected an EXR of one part in scan lines")
+            raise ImageError(f"{name}: is {kind}, expected an EXR of one part in scan lines")
     number = attributes["compression"][0]
     compression = _COMPRESSIONS[number] if number < len(_COMPRESSIONS) else f"number {number}"
     if compression not in _ROWS_PER_CHUNK:
-        raise ImageError(f"{path.name}: compressed with {compression}, expected ZIP or none: save it so")
+        raise ImageError(f"{name}: compressed with {compression}, expected ZIP or none: save it so")
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
     if width < 1 or height < 1 or width * height > _MAX_PIXELS:
-        raise ImageError(f"{path.name}: claims to be {width} x {height} pixels, expected 1 to {_MAX_PIXELS:,} in all")
+        raise ImageError(f"{name}: claims to be {width} x {height} pixels, expected 1 to {_MAX_PIXELS:,} in all")
     listed = _channel_list(attributes["channels"])
     per_chunk = _ROWS_PER_CHUNK[compression]
     offsets = np.frombuffer(data, "<u8", count=-(-height // per_chunk), offset=at)
@@ -76,7 +78,7 @@ def _channels(data, path):
 
     # A compressed picture is at most about a thousand times its file; what claims more is damaged.
     if height * row_size > 1100 * len(data):
-        raise ImageError(f"{path.name}: claims to be {width} x {height} pixels, more than the file can hold")
+        raise ImageError(f"{name}: claims to be {width} x {height} pixels, more than the file can hold")
     channels = {name: np.zeros((height, width), np.float32) for name, _ in listed}
     for offset in offsets.tolist():
         y, size = struct.unpack_from("<ii", data, offset)

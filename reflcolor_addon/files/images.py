@@ -9,17 +9,19 @@ from ..messages import Message
 from ..srgb import linear_to_srgb8
 from .atomic import written_atomically
 from .color_profiles import embedded_profile
-from .exr import is_exr, read_exr_channels
+from .exr import exr_channels, is_exr
+from .gate import contents
 from .native_noise import quiet_on_failure
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp", ".exr")
 """Image files that can be opened; for file dialogs."""
 
 _PNG, _PNG_WITH_ALPHA = b"\x89PNG\r\n\x1a\n", (4, 6)
-_EXPECTED = "expected PNG, JPEG, TIFF, WebP, BMP or EXR"
+_EXPECTED = "an image (PNG, JPEG, TIFF, WebP, BMP or EXR)"
+_LARGEST_FILE = 1 << 32
 
 
-def read_image(path, warnings=None):
+def read_image(path, warnings=None, *, cancelled=None):
     """Read a photo.
 
     Parameters
@@ -45,9 +47,9 @@ def read_image(path, warnings=None):
     import cv2
 
     path = Path(path)
-    data = _contents(path)
+    data = contents(path, _EXPECTED, error=ImageError, most=_LARGEST_FILE, cancelled=cancelled)
     if is_exr(data):
-        return _srgb_of_light(_color_of_exr(read_exr_channels(path), path))
+        return _srgb_of_light(_color_of_exr(exr_channels(data, path.name), path))
     image = _decoded(path, data, cv2.IMREAD_COLOR | cv2.IMREAD_ANYDEPTH)
     cv2.cvtColor(image, cv2.COLOR_BGR2RGB, dst=image)
     if data.startswith(_PNG) and data[25] in _PNG_WITH_ALPHA:
@@ -81,7 +83,7 @@ def eight_bits(pixels):
     return rgb
 
 
-def read_measured(path):
+def read_measured(path, *, cancelled=None):
     """Read an image whose pixels are measurements: range, reflectance, infrared.
 
     Parameters
@@ -103,9 +105,9 @@ def read_measured(path):
     import cv2
 
     path = Path(path)
-    data = _contents(path)
+    data = contents(path, _EXPECTED, error=ImageError, most=_LARGEST_FILE, cancelled=cancelled)
     if is_exr(data):
-        return _measured_of_exr(read_exr_channels(path), path)
+        return _measured_of_exr(exr_channels(data, path.name), path)
     image = _decoded(path, data, cv2.IMREAD_UNCHANGED)
     if image.ndim == 2:
         return image, None
@@ -146,22 +148,6 @@ def write_png(path, image):
         raise OutputError(f"{path}: cannot be encoded as PNG ({reason})")
     with written_atomically(path) as temporary:
         temporary.write_bytes(data)
-
-
-def _contents(path):
-    try:
-        if path.is_dir():
-            raise ImageError(f"{path}: is a directory, expected an image file")
-        data = path.read_bytes()
-    except FileNotFoundError:
-        raise ImageError(f"{path}: no such image") from None
-    except MemoryError:
-        raise ImageError(f"{path.name}: does not fit into memory") from None
-    except (OSError, ValueError) as error:
-        raise ImageError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error})") from None
-    if not data:
-        raise ImageError(f"{path.name}: is empty, {_EXPECTED}")
-    return data
 
 
 def _decoded(path, data, flags):

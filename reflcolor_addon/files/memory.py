@@ -25,10 +25,10 @@ def require_memory(needed, what, *, error=ReflcolorError):
     """Raise `error` in one line if `needed` bytes for `what` are more than there are."""
     available = available_bytes()
     if available is not None and needed > available:
-        raise error(f"{what} needs about {_readable(needed)} of memory, and {_readable(available)} are free")
+        raise error(f"{what} needs about {readable(needed)} of memory, and {readable(available)} are free")
 
 
-def _readable(count):
+def readable(count):
     for unit in ("bytes", "KB", "MB", "GB"):
         if count < 1024:
             return f"{count:.3g} {unit}"

@@ -5,8 +5,11 @@ from collections import Counter
 from dataclasses import dataclass
 
 from ..errors import ReflcolorError
+from ..files.json_files import read_json
 from ..seeds.sources import EVIDENCE, GUESSED, HAND, IN_PHOTO
 from .report import FORMAT, VERSION
+
+_LARGEST_FILE = 1 << 28
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,8 +55,14 @@ def parse_provenance(text):
         report = json.loads(text)
     except (ValueError, RecursionError) as error:
         raise ReflcolorError("the provenance is no JSON") from error
+    return _checked(report)
+
+
+def _checked(report):
     if not isinstance(report, dict) or (report.get("format"), report.get("version")) != (FORMAT, VERSION):
-        raise ReflcolorError(f'the provenance is not of the format "{FORMAT}", version {VERSION}')
+        raise ReflcolorError(
+            'the provenance is not of the format "{format}", version {version}', format=FORMAT, version=VERSION
+        )
     return report
 
 
@@ -65,14 +74,9 @@ def read_report(path):
     ReflcolorError
         If the file cannot be read, or holds no report that this version can read.
     """
+    report = read_json(path, "a report in JSON", most=_LARGEST_FILE)
     try:
-        text = path.read_text("utf-8-sig")
-    except OSError as error:
-        raise ReflcolorError("{file}: cannot be read ({reason})", file=path, reason=error.strerror or error) from error
-    except ValueError as error:
-        raise ReflcolorError("{file}: is no text in UTF-8; expected a report in JSON", file=path) from error
-    try:
-        return parse_provenance(text)
+        return _checked(report)
     except ReflcolorError as error:
         raise ReflcolorError("{file}: {problem}", file=path, problem=error.message) from error
 

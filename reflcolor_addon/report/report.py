@@ -8,7 +8,8 @@ import platform
 from datetime import UTC, datetime
 from pathlib import Path
 
-from ..errors import Cancelled, ReflcolorError
+from ..errors import Cancelled
+from ..files.gate import opened, size_of
 from ..scan.normalization import PERCENTILES
 from ..version import __version__
 
@@ -166,17 +167,15 @@ def seed_entries(seeds, given):
 
 def fingerprint(path, cancelled=None):
     """Return the size and the SHA-256 of a file, as ``{"bytes": ..., "sha256": ...}``; raises as `input_entry`."""
-    digest, size = hashlib.sha256(), 0
-    try:
-        with path.open("rb") as file:
-            while chunk := file.read(_CHUNK_BYTES):
-                if cancelled is not None and cancelled():
-                    raise Cancelled
-                digest.update(chunk)
-                size += len(chunk)
-    except OSError as error:
-        raise ReflcolorError(f"{path}: can no longer be read ({error.strerror})") from error
-    return {"bytes": size, "sha256": digest.hexdigest()}
+    digest = hashlib.sha256()
+    with opened(path, "an ordinary file", may_be_empty=True) as file:
+        size = left = size_of(file)
+        while left and (chunk := file.read(min(left, _CHUNK_BYTES))):
+            if cancelled is not None and cancelled():
+                raise Cancelled
+            digest.update(chunk)
+            left -= len(chunk)
+    return {"bytes": size - left, "sha256": digest.hexdigest()}
 
 
 def versions(blender=None):

@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ScanError
+from ..messages import LONGEST_LINE, Message, one_line
+from .limits import FARTHEST_M, LONGEST_NAME, MOST_PIXELS, SCALES, STRONGEST
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -35,7 +37,8 @@ class Scan:
     Raises
     ------
     ScanError
-        If shapes disagree, the grid is empty, or a valid pixel holds a number that is not finite.
+        If shapes disagree, the grid is empty, or a valid pixel or the pose holds a number that is not finite or beyond
+        all reason (`limits`).
     """
 
     name: str
@@ -48,9 +51,18 @@ class Scan:
     warnings: tuple[str, ...] = ()
 
     def __post_init__(self):
+        object.__setattr__(self, "name", one_line(str(self.name), LONGEST_NAME))
+        object.__setattr__(self, "warnings", tuple(map(_as_line, self.warnings)))
         shape = np.shape(self.valid)
         if len(shape) != 2 or 0 in shape:
-            raise ScanError(f"{self.name}: a scan is a grid of rows x columns, found shape {shape}")
+            raise self._error("a scan is a grid of rows x columns, found shape {shape}", shape=shape)
+        if shape[0] * shape[1] > MOST_PIXELS:
+            raise self._error(
+                "has {rows:,} rows x {columns:,} columns, expected at most {most:,} pixels",
+                rows=shape[0],
+                columns=shape[1],
+                most=MOST_PIXELS,
+            )
         arrays = {
             "points": np.ascontiguousarray(self.points, np.float64),
             "reflectance": np.ascontiguousarray(self.reflectance, np.float32),
@@ -62,20 +74,40 @@ class Scan:
             arrays["color"] = np.ascontiguousarray(self.color)
             expected["color"] = (*shape, 3)
             if arrays["color"].dtype != np.uint8:
-                raise ScanError(f"{self.name}: color must be uint8, found {arrays['color'].dtype}")
+                raise self._error("color must be uint8, found {kind}", kind=str(arrays["color"].dtype))
         for key, array in arrays.items():
             if array.shape != expected[key]:
-                raise ScanError(f"{self.name}: {key} has shape {array.shape}, expected {expected[key]}")
-        valid = arrays["valid"]
-        if not np.isfinite(arrays["pose"]).all():
-            raise ScanError(f"{self.name}: the pose holds a number that is not finite")
-        if not np.isfinite(arrays["points"][valid]).all():
-            raise ScanError(f"{self.name}: a valid pixel has a point that is not finite")
-        if not np.isfinite(arrays["reflectance"][valid]).all():
-            raise ScanError(f"{self.name}: a valid pixel has a reflectance that is not finite")
-        arrays["points"] = np.where(valid[..., None], arrays["points"], 0.0)
+                raise self._error(
+                    "{array} has shape {shape}, expected {expected}",
+                    array=key,
+                    shape=array.shape,
+                    expected=expected[key],
+                )
+        self._require_plausible(arrays["points"], arrays["reflectance"], arrays["valid"], arrays["pose"])
+        arrays["points"] = np.where(arrays["valid"][..., None], arrays["points"], 0.0)
         for key, array in arrays.items():
             object.__setattr__(self, key, array)
+
+    def _require_plausible(self, points, reflectance, valid, pose):
+        """The one gate that every reader's numbers pass."""
+        if not np.isfinite(pose).all():
+            raise self._error("the pose holds a number that is not finite")
+        if not (is_plausible(pose) and np.array_equal(pose[3], [0, 0, 0, 1])):
+            raise self._error(
+                "the pose is none of a scanner: expected 0 0 0 1 as its last row, and at most {most:g} m",
+                most=FARTHEST_M,
+            )
+        for what, values, most in (("a point", points, FARTHEST_M), ("a reflectance", reflectance, STRONGEST)):
+            seen = np.abs(values[valid]).max(initial=0)
+            if not np.isfinite(seen):
+                raise self._error("a valid pixel has {what} that is not finite", what=what)
+            if seen > most:
+                raise self._error(
+                    "a valid pixel has {what} of {found:g}, expected at most {most:g}", what=what, found=seen, most=most
+                )
+
+    def _error(self, template, **values):
+        return ScanError("{scan}: " + template, scan=self.name, **values)
 
     @property
     def shape(self):
@@ -129,6 +161,19 @@ class Scan:
         covered = abs(turn.sum())
         joint = (width - columns[-1] + columns[0]) * step
         return bool(step > 0 and abs(covered + joint - 2 * np.pi) < 1.5 * step + 0.02 * joint)
+
+
+def is_plausible(pose):
+    """Whether a (4, 4) pose can be a scanner's: not beyond all reason, and it can be undone; see `limits`."""
+    linear, place = pose[:3, :3], pose[:3, 3]
+    if not (np.abs(place).max() <= FARTHEST_M and np.abs(linear).max() <= SCALES[1]):
+        return False
+    scales = np.linalg.svd(linear, compute_uv=False)
+    return bool(SCALES[0] <= scales[-1] and scales[0] <= SCALES[1])
+
+
+def _as_line(warning):
+    return warning if isinstance(warning, Message) else one_line(warning, LONGEST_LINE)
 
 
 def _wrapped(angle):

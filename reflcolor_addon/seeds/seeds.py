@@ -11,7 +11,9 @@ import numpy as np
 
 from ..errors import SeedsError
 from ..files.atomic import written_atomically
+from ..files.gate import beside
 from ..files.images import read_image
+from ..files.json_files import read_json
 from ..messages import Message
 from .sources import GUESSED, SOURCES
 
@@ -19,6 +21,7 @@ FORMAT = "reflcolor-seeds"
 VERSION = 1
 # From so many seeds on pixels without a return on it is asked whether they belong to the scan.
 _MANY_MOVED = 5
+_LARGEST_FILE = 1 << 28
 _KEYS = ("row", "col", "rgb", "photo", "x", "y", "confidence", "reason")
 
 
@@ -163,8 +166,8 @@ class Seeds:
         -------
         seeds : Seeds
         warnings : list of str
-            One line per seed that lay on a pixel without return and was moved to the nearest pixel with one; one more
-            before them where they are many.
+            One line per seed that lay on a pixel without return and was moved to the nearest pixel with one; a single
+            one with their number where they are many.
 
         Raises
         ------
@@ -197,15 +200,15 @@ class Seeds:
                     )
                 )
         if len(warnings) >= _MANY_MOVED:
-            warnings.insert(
-                0,
+            warnings = [
                 Message(
-                    "{count} of {all} seeds lie where {scan} has no return; are they of another scan?",
+                    "{count} of {all} seeds lie where {scan} has no return, and were moved to the nearest pixel with "
+                    "one; are they of another scan?",
                     count=len(warnings),
                     all=len(self),
                     scan=scan.name,
-                ),
-            )
+                )
+            ]
         return replace(self, rows=rows, cols=cols), warnings
 
 
@@ -248,7 +251,8 @@ def find_photo(name, seeds_path, photos):
     seeds_path : Path
         The file of seeds.
     photos : sequence of paths
-        Photos that were given. Only their file names count; they go before what is beside the file of seeds.
+        Photos that were given. Only their file names count; they go before what is beside the file of seeds, in its
+        folder or below; nothing else is opened because a file of seeds names it.
 
     Raises
     ------
@@ -258,8 +262,8 @@ def find_photo(name, seeds_path, photos):
     given = sorted({Path(photo) for photo in photos if Path(photo).name == Path(name).name})
     if len(given) > 1:
         raise SeedsError(f"{seeds_path}: photo {name} may be {given[0]} or {given[1]}; give them different names")
-    path = given[0] if given else seeds_path.parent / name
-    return path if path.is_file() else None
+    path = given[0] if given else beside(seeds_path, name)
+    return path if path is not None and path.is_file() else None
 
 
 def sample_photo(photo, x, y):
@@ -297,19 +301,9 @@ class _SeedsFile:
         return Seeds(rows, cols, rgb, photos, np.array(xy, np.float64).reshape(-1, 2), np.array(confidence), reason)
 
     def _document(self):
-        try:
-            document = json.loads(self._path.read_text(encoding="utf-8-sig"))
-        except OSError as error:
-            raise SeedsError(f"{self._path}: cannot be read ({error.strerror})") from error
-        except UnicodeDecodeError as error:
-            raise SeedsError(f"{self._path}: expected a JSON file of seeds, found bytes that are no text") from error
-        except json.JSONDecodeError as error:
-            place = f"line {error.lineno}, column {error.colno}"
-            raise SeedsError(f"{self._path}: {place}: expected a JSON file of seeds ({error.msg})") from error
-        except (ValueError, RecursionError) as error:  # a number of thousands of digits, brackets without end
-            raise SeedsError(f"{self._path}: expected a JSON file of seeds, found what JSON cannot hold") from error
+        document = read_json(self._path, "a JSON file of seeds", error=SeedsError, most=_LARGEST_FILE)
         if not isinstance(document, dict) or document.get("format") != FORMAT:
-            raise SeedsError(f'{self._path}: expected a JSON object with "format": "{FORMAT}"')
+            raise SeedsError('{file}: expected a JSON object with "format": "{format}"', file=self._path, format=FORMAT)
         if document.get("version") != VERSION:
             found = reprlib.repr(document.get("version"))
             raise SeedsError(f'{self._path}: "version": expected {VERSION}, found {found}')

@@ -57,6 +57,7 @@ def run(arguments, session):
     plan = Plan(
         scans=tuple(arguments.input),
         wanted=arguments.wanted,
+        outside_files=arguments.outside_files,
         seeds=arguments.seeds,
         photos=tuple(arguments.photo),
         settings=settings_of(arguments),

@@ -8,6 +8,7 @@ from ...batch.read import choose_scan
 from ...color.evaluation import evaluate
 from ...errors import ImageError, ScanError
 from ...files.images import read_image
+from ..options import add_outside_files
 
 NAME = "evaluate"
 HELP = "measure colors against the true ones"
@@ -29,12 +30,15 @@ def add_arguments(parser):
         metavar="NAME_OR_INDEX",
         help="which scan of the file: its name, or its index as info prints it, counted from 1",
     )
+    add_outside_files(parser)
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
 
 
 def run(arguments, session):
     """Print how far the colors of a result are from the true ones, over the pixels that have both."""
-    index, scan = choose_scan(session.read_scans(arguments.input), arguments.wanted, arguments.input)
+    index, scan = choose_scan(
+        session.read_scans(arguments.input, outside=arguments.outside_files), arguments.wanted, arguments.input
+    )
     session.warnings += scan.warnings
     rgb = _image_of(scan, arguments.result)
     if arguments.truth is not None:

@@ -4,6 +4,8 @@ import json
 import math
 from pathlib import Path
 
+from ..options import add_outside_files
+
 NAME = "info"
 HELP = "say what is in a scan file"
 FORMAT = "reflcolor-info"
@@ -13,12 +15,13 @@ VERSION = 1
 def add_arguments(parser):
     """Declare what ``info`` takes."""
     parser.add_argument("input", metavar="SCAN", type=Path, help="scan file: .ptx, .e57 or .scan.json")
+    add_outside_files(parser)
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
 
 
 def run(arguments, session):
     """Print a description of every scan in the file."""
-    scans = session.read_scans(arguments.input)
+    scans = session.read_scans(arguments.input, outside=arguments.outside_files)
     descriptions = [describe(index, scan) for index, scan in enumerate(scans, 1)]
     if arguments.json:
         document = {"format": FORMAT, "version": VERSION, "file": str(arguments.input), "scans": descriptions}

@@ -47,6 +47,7 @@ def run(arguments, session):
     plan = Plan(
         scans=tuple(arguments.input),
         wanted=arguments.wanted,
+        outside_files=arguments.outside_files,
         hand=arguments.hand,
         photos=tuple(arguments.photo),
         settings=settings_of(arguments),

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from ...errors import ScanError
+from ..gate import opened
 from .e57 import read_e57
 from .image_pair import read_image_pair
 from .ptx import read_ptx
@@ -10,16 +11,20 @@ from .ptx import read_ptx
 SCAN_SUFFIXES = (".ptx", ".e57", ".scan.json")
 """What scan files end in; for file dialogs and drag and drop."""
 
+_EXPECTED = f"a scan file ({', '.join(SCAN_SUFFIXES)})"
+_START = 512
 _READERS = dict(zip(SCAN_SUFFIXES, (read_ptx, read_e57, read_image_pair), strict=True))
 
 
-def read_scans(path, *, progress=None, cancelled=None):
+def read_scans(path, *, outside=False, progress=None, cancelled=None):
     """Read every scan of a file, upright and not mirrored.
 
     Parameters
     ----------
     path : path-like
         The suffix tells the format, in upper or lower case.
+    outside : bool
+        Let a `.scan.json` name images outside of its own folder, too; who sends such a file could name any file here.
     progress : callable, optional
         Called with a fraction 0..1 and a text.
     cancelled : callable, optional
@@ -39,36 +44,30 @@ def read_scans(path, *, progress=None, cancelled=None):
     """
     path = Path(path)
     reader = next((read for suffix, read in _READERS.items() if path.name.lower().endswith(suffix)), None)
-    start = _start_of(path)
-    if not start:
-        raise ScanError(f"{path.name}: is empty")
+    try:
+        with opened(path, _EXPECTED, error=ScanError) as file:
+            _check_kind(path, file.read(_START), reader)
+            file.seek(0)
+            return reader(file, path, outside=outside, progress=progress, cancelled=cancelled)
+    except MemoryError:
+        raise ScanError("{file}: does not fit into memory", file=path.name) from None
+
+
+def _check_kind(path, start, reader):
     contents = _contents(start)
     if reader is None:
-        hint = f"; its contents look like {contents}: rename it" if contents else ""
-        raise ScanError(f"{path.name}: not a scan file by its name, expected one of {', '.join(SCAN_SUFFIXES)}{hint}")
+        known = ", ".join(SCAN_SUFFIXES)
+        if contents is None:
+            raise ScanError("{file}: not a scan file by its name, expected one of {known}", file=path.name, known=known)
+        raise ScanError(
+            "{file}: not a scan file by its name, expected one of {known}; its contents look like {contents}: rename "
+            "it",
+            file=path.name,
+            known=known,
+            contents=contents,
+        )
     if contents and not path.name.lower().endswith(contents):
-        raise ScanError(f"{path.name}: its contents look like {contents}: rename it")
-    try:
-        return reader(path, progress=progress, cancelled=cancelled)
-    except MemoryError:
-        raise ScanError(f"{path.name}: does not fit into memory") from None
-    except OSError as error:
-        raise ScanError(f"{path}: cannot be read ({error.strerror or error})") from None
-
-
-def _start_of(path):
-    try:
-        with path.open("rb") as file:
-            return file.read(512)
-    except FileNotFoundError:
-        raise ScanError(f"{path}: no such file") from None
-    except OSError as error:
-        if path.is_dir():
-            expected = f"expected a scan file ({', '.join(SCAN_SUFFIXES)})"
-            raise ScanError(f"{path.name or path}: is a directory, {expected}") from None
-        raise ScanError(f"{path}: cannot be read ({error.strerror or error})") from None
-    except ValueError as error:
-        raise ScanError(f"{str(path)!r}: cannot be read ({error})") from None
+        raise ScanError("{file}: its contents look like {contents}: rename it", file=path.name, contents=contents)
 
 
 def _contents(start):

@@ -26,8 +26,8 @@ class IndexGrid:
         Index of every point, of any sign, from any start.
     limits : dict
         (low, high) of ``rowIndex`` and ``columnIndex`` as the file states them, each may be None.
-    where : str
-        File and scan, for messages.
+    file_name, name : str
+        Of the file and the scan, for messages.
 
     Raises
     ------
@@ -37,8 +37,8 @@ class IndexGrid:
         If the grid does not fit into memory.
     """
 
-    def __init__(self, rows, columns, limits, where):
-        self._where = where
+    def __init__(self, rows, columns, limits, file_name, name):
+        self._place = {"file": file_name, "scan": name}
         most = _CELLS_PER_POINT * (len(rows) + 1000)
         # The file's own bounds tell of margins without a point; not where they claim far more than the points fill.
         for stated in (limits, {field: (None, None) for field in limits}):
@@ -48,10 +48,18 @@ class IndexGrid:
                 break
         if height * width > most:
             raise UnusableScan(
-                f"{where}: its row and column numbers span {height:,} x {width:,} pixels for {len(rows):,} points; "
-                "export it again as a gridded E57 or as PTX"
+                "{file}: scan '{scan}': its row and column numbers span {rows:,} x {columns:,} pixels for {count:,} "
+                "points; export it again as a gridded E57 or as PTX",
+                rows=height,
+                columns=width,
+                count=len(rows),
+                **self._place,
             )
-        require_memory(height * width * BYTES_PER_PIXEL, f"{where}: {height} rows x {width} columns", error=ScanError)
+        require_memory(
+            height * width * BYTES_PER_PIXEL,
+            f"{file_name}: scan '{name}': {height} rows x {width} columns",
+            error=ScanError,
+        )
         self.shape = (height, width)
         self._flat = (rows - first_row).astype(np.int64) * width + (columns - first_column).astype(np.int64)
         self._points = self._pixels = None
@@ -79,8 +87,11 @@ class IndexGrid:
         doubled = returns.size - self._pixels.size
         if doubled > 0.5 * returns.size:
             raise UnusableScan(
-                f"{self._where}: rowIndex and columnIndex do not tell its points apart ({returns.size:,} points, "
-                f"{self._pixels.size:,} pixels); export it as PTX or as a structured (gridded) E57"
+                "{file}: scan '{scan}': rowIndex and columnIndex do not tell its points apart ({count:,} points, "
+                "{pixels:,} pixels); export it as PTX or as a structured (gridded) E57",
+                count=returns.size,
+                pixels=self._pixels.size,
+                **self._place,
             )
         return doubled
 
@@ -96,7 +107,11 @@ class IndexGrid:
         with np.errstate(invalid="ignore"):
             whole = (np.abs(index) < _LARGEST_INDEX) & (index == np.floor(index))
         if not whole.all():
-            raise UnusableScan(f"{self._where}: {field} holds what is no whole number; export it as PTX")
+            raise UnusableScan(
+                "{file}: scan '{scan}': {field} holds what is no whole number; export it as PTX",
+                field=field,
+                **self._place,
+            )
         first, last = int(index.min()), int(index.max())
         low, high = limits[field]
         stated = low is not None and high is not None and low <= first and last <= high

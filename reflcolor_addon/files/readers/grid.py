@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import Cancelled, ScanError
+from ...messages import Message
+from ...scan.limits import FARTHEST_M, NEAREST_M, STRONGEST
 from ...scan.orientation import AS_STORED, infer_turn
 from ...scan.scan import Scan
 
@@ -14,8 +16,8 @@ BYTES_PER_PIXEL = 120
 _FARTHEST_RETURN_M = 20_000.0
 """No terrestrial scanner measures farther; points beyond are geo-referenced."""
 
-_TOO_FAR_M = 1e12
-"""No place on or near a planet."""
+_MOST_TOLD = 5
+"""So many of the scans that are left out are told one by one."""
 
 _GRAY_SHARE = 0.999
 """Share of equal channels that makes a color image a gray one; a stray pixel is no color."""
@@ -51,29 +53,39 @@ def finish_scan(name, source, *, points, reflectance, valid, color, pose, warnin
     ScanError
         If no pixel has a return, or nothing in the file can serve as reflectance.
     """
-    place, warnings = f"scan '{name}'", list(warnings)
-    with np.errstate(invalid="ignore"):
-        measured = valid & (points != 0).any(axis=-1)
-    reflectance, color = _told_apart(reflectance, color, measured, place, warnings, source)
-    usable = measured & (np.abs(points) < _TOO_FAR_M).all(axis=-1) & np.isfinite(reflectance)
+    warnings = list(warnings)
+
+    def warn(template, **values):
+        warnings.append(Message("scan '{scan}': " + template, scan=name, **values))
+
+    measured = valid & (points != 0).any(axis=-1)
+    reflectance, color = _told_apart(reflectance, color, measured, name, warn, source)
+    usable = measured & (np.abs(points) < FARTHEST_M).all(axis=-1) & (np.abs(reflectance) < STRONGEST)
+    # A square of such a coordinate is no number any more, so that its range would be none.
+    usable &= (np.abs(points) > NEAREST_M).any(axis=-1)
     if lost := np.count_nonzero(measured) - np.count_nonzero(usable):
-        warnings.append(
-            f"{place}: {lost} points hold a number that is not finite or far too large, and were taken as no return"
+        warn(
+            "{count:,} points hold a number that is not finite, far too large or far too small, and were taken as no "
+            "return",
+            count=lost,
         )
     if not usable.any():
-        raise UnusableScan(f"{source.name}: {place} has no pixel with a return; there is nothing to import")
+        raise UnusableScan(
+            "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
+        )
 
     nearest = _nearest(points, usable)
     if nearest > _FARTHEST_RETURN_M:
-        warnings.append(
-            f"{place}: every point is more than {nearest / 1000:,.0f} km from the scanner's origin: the file holds "
-            "world coordinates, so ranges and orientation mean little; rows and columns stay as stored"
+        warn(
+            "every point is more than {distance:,.0f} km from the scanner's origin: the file holds world coordinates, "
+            "so ranges and orientation mean little; rows and columns stay as stored",
+            distance=nearest / 1000,
         )
         turn = AS_STORED
     else:
         turn = infer_turn(points, usable)
         if not turn.certain:
-            warnings.append(f"{place}: its points do not show which way is up; flip it if it looks wrong")
+            warn("its points do not show which way is up; flip it if it looks wrong")
     return Scan(
         name=name,
         points=turn.of(points),
@@ -99,19 +111,21 @@ def gray_is_no_color(color, valid):
     return np.count_nonzero(equal) >= _GRAY_SHARE * len(seen)
 
 
-def _told_apart(reflectance, color, valid, place, warnings, source):
+def _told_apart(reflectance, color, valid, name, warn, source):
     """Some files store the intensity as three equal colors: it is no color, and may be the only intensity there is."""
     if color is not None and gray_is_no_color(color, valid):
         gray, color = color[..., 0], None
         if gray[valid].any():
             if reflectance is None or (np.ptp(reflectance[valid]) == 0 and np.ptp(gray[valid]) > 0):
-                warnings.append(f"{place}: no intensity but gray colors; they are taken as the intensity")
+                warn("no intensity but gray colors; they are taken as the intensity")
                 reflectance = gray.astype(np.float32)
             else:
-                warnings.append(f"{place}: its colors are gray (red = green = blue); taken as a scan without color")
+                warn("its colors are gray (red = green = blue); taken as a scan without color")
     if reflectance is None:
         raise UnusableScan(
-            f"{source.name}: {place} has no intensity, which is what is colorized; export it with intensity"
+            "{file}: scan '{scan}' has no intensity, which is what is colorized; export it with intensity",
+            file=source.name,
+            scan=name,
         )
     return reflectance, color
 
@@ -152,10 +166,23 @@ def with_problems(finished, problems, count, source):
     """The finished scans, the first of which says what the left out ones lack; an error if there are none."""
     if not problems:
         return finished
-    reason = str(problems[0]).removeprefix(f"{source.name}: ")
+    reasons = [_without_file(problem.message) for problem in problems]
+    if not finished and count == 1:
+        raise problems[0]
     if not finished:
-        raise (
-            problems[0] if count == 1 else ScanError(f"{source.name}: none of its {count} scans can be used: {reason}")
+        raise ScanError(
+            "{file}: none of its {count} scans can be used: {reason}",
+            file=source.name,
+            count=count,
+            reason=reasons[0],
         )
-    left_out = tuple(f"left out: {str(problem).removeprefix(f'{source.name}: ')}" for problem in problems)
-    return [replace(finished[0], warnings=finished[0].warnings + left_out), *finished[1:]]
+    left_out = [Message("left out: {reason}", reason=reason) for reason in reasons[:_MOST_TOLD]]
+    if more := len(reasons) - len(left_out):
+        left_out.append(Message("left out: {count:,} more scans, for such reasons", count=more))
+    return [replace(finished[0], warnings=finished[0].warnings + tuple(left_out)), *finished[1:]]
+
+
+def _without_file(message):
+    """What a message says behind the name of the file."""
+    template = message.template.removeprefix("{file}: ")
+    return Message(template, **message.values) if template != message.template else message

@@ -3,26 +3,40 @@
 import numpy as np
 
 from ...errors import Cancelled, ImageError, ScanError
+from ...messages import Message
+from ...scan.limits import FARTHEST_M, STRONGEST
 from ...scan.orientation import flipped
 from ...scan.scan import Scan
+from ..gate import beside
 from ..images import read_image, read_measured
+from ..json_files import parse_json
 from ..memory import require_memory
 from .grid import BYTES_PER_PIXEL, gray_is_no_color
-from .scan_json import load_description
+from .scan_json import EXPECTED, LARGEST_FILE, check_description
 
 _NOTHING_HIT_M = 1e6
 """Renderers write 1e10, or the largest number there is, where a ray meets nothing."""
 
 
-def read_image_pair(path, *, progress=None, cancelled=None):
+def read_image_pair(file, path, *, outside=False, progress=None, cancelled=None):
     """Read the scan that a `.scan.json` describes.
 
     No return is where the range is 0, not finite, beyond all reason, or transparent where the image has an alpha
     channel (there, and only there, a value of 0 may be a range).
 
-    Parameters and errors are those of `read_scans`.
+    Parameters
+    ----------
+    file : binary file
+    path : Path
+        Its place; images are looked for from there.
+    outside : bool
+        Let it name images outside of its own folder, too.
+    progress, cancelled : callable, optional
+
+    Errors are those of `read_scans`.
     """
-    description = load_description(path)
+    description = check_description(parse_json(file, path, EXPECTED, error=ScanError, most=LARGEST_FILE), path.name)
+    image_of = _Images(path, outside, cancelled)
 
     def tell(fraction, file_name):
         if cancelled and cancelled():
@@ -31,11 +45,13 @@ def read_image_pair(path, *, progress=None, cancelled=None):
             progress(fraction, f"Reading {file_name}")
 
     tell(0.0, description.range)
-    values, opaque = _measured(path, "range", description.range)
+    values, opaque = image_of("range", description.range, read_measured)
     if values.dtype.kind in "ui" and description.range_scale is None and description.range_table is None:
         raise ScanError(
-            f"{path.name}: range_scale: missing; {description.range} holds whole numbers, say how many metres one is "
-            "(0.001 for millimetres)"
+            "{file}: range_scale: missing; {image} holds whole numbers, say how many metres one is (0.001 for "
+            "millimetres)",
+            file=path.name,
+            image=description.range,
         )
     shape = values.shape
     require_memory(values.size * BYTES_PER_PIXEL, f"{path.name}: {shape[0]} x {shape[1]} pixels", error=ScanError)
@@ -44,26 +60,34 @@ def read_image_pair(path, *, progress=None, cancelled=None):
     valid &= (distance > 0) & (distance < _NOTHING_HIT_M)
 
     tell(0.4, description.reflectance)
-    reflectance, _ = _measured(path, "reflectance", description.reflectance)
+    reflectance, _ = image_of("reflectance", description.reflectance, read_measured)
     _require_same_size(path, "reflectance", description.reflectance, reflectance.shape, shape)
     reflectance = reflectance.astype(np.float32)
-    valid &= np.isfinite(reflectance)
+    valid &= np.abs(reflectance) < STRONGEST
 
     color, warnings = None, []
     name = description.name or path.name[: -len(".scan.json")] or path.name
     if description.color is not None:
         tell(0.6, description.color)
-        color = _opened(path, "color", description.color, read_image)
+        color = image_of("color", description.color, read_image)
         _require_same_size(path, "color", description.color, color.shape[:2], shape)
         color = color[..., ::-1] if description.color_order == "bgr" else color
         if gray_is_no_color(color, valid):
-            warnings.append(f"scan '{name}': its colors are gray (red = green = blue); taken as a scan without color")
+            warnings.append(
+                Message(
+                    "scan '{scan}': its colors are gray (red = green = blue); taken as a scan without color", scan=name
+                )
+            )
             color = None
     tell(0.8, path.name)
     points = description.model.points(np.where(valid, distance, 0.0), description.range_type)
-    valid &= np.isfinite(points).all(axis=-1)
+    valid &= (np.abs(points) < FARTHEST_M).all(axis=-1)
     if not valid.any():
-        raise ScanError(f"{path.name}: {description.range} has no pixel with a return; there is nothing to import")
+        raise ScanError(
+            "{file}: {image} has no pixel with a return; there is nothing to import",
+            file=path.name,
+            image=description.range,
+        )
     scan = Scan(
         name=name,
         points=points,
@@ -78,21 +102,37 @@ def read_image_pair(path, *, progress=None, cancelled=None):
     return [flipped(scan, vertical=vertical, horizontal=horizontal)]
 
 
-def _measured(path, key, image):
-    return _opened(path, key, image, read_measured)
+class _Images:
+    """Opens images that a description names; what is wrong with one is told under the description's name and key."""
 
+    def __init__(self, path, outside, cancelled):
+        self._path, self._outside, self._cancelled = path, outside, cancelled
 
-def _opened(path, key, image, read):
-    """An image that the description names; what is wrong with it is told under the description's name and key."""
-    try:
-        return read(path.parent / image)
-    except ImageError as error:
-        raise ScanError(f"{path.name}: {key}: {error}") from None
+    def __call__(self, key, image, read):
+        place = beside(self._path, image, outside=self._outside)
+        if place is None:
+            raise ScanError(
+                "{file}: {key}: {image} lies outside of the folder of {file}; put it there, or allow outside files",
+                file=self._path.name,
+                key=key,
+                image=image,
+            )
+        try:
+            return read(place, cancelled=self._cancelled)
+        except ImageError as error:
+            raise ScanError("{file}: {key}: {problem}", file=self._path.name, key=key, problem=error.message) from None
 
 
 def _require_same_size(path, key, image, shape, expected):
     if shape != expected:
         raise ScanError(
-            f"{path.name}: {key}: {image} has {shape[0]} rows x {shape[1]} columns, expected {expected[0]} x "
-            f"{expected[1]} as the range image has"
+            "{file}: {key}: {image} has {rows} rows x {columns} columns, expected {expected_rows} x {expected_columns} "
+            "as the range image has",
+            file=path.name,
+            key=key,
+            image=image,
+            rows=shape[0],
+            columns=shape[1],
+            expected_rows=expected[0],
+            expected_columns=expected[1],
         )

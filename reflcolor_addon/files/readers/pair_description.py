@@ -45,8 +45,9 @@ def describe_pair(first, second, model, *, range_scale, swap=False):
         depths = [read_measured(path)[0].dtype.itemsize for path in images]
         if depths[0] == depths[1]:
             raise ScanError(
-                f"{images[0].name}, {images[1].name}: cannot tell which is the range image; "
-                'put "depth" or "range" into its file name'
+                '{first}, {second}: cannot tell which is the range image; put "depth" or "range" into its file name',
+                first=images[0].name,
+                second=images[1].name,
             )
         named = [depths[0] > depths[1], depths[1] > depths[0]]
     range_image, reflectance_image = images if named[0] != swap else images[::-1]

@@ -4,11 +4,14 @@ import math
 
 import numpy as np
 
+from ...messages import Message
+from ...scan.limits import FARTHEST_M
+from ...scan.scan import is_plausible
+
 _TOLERANCE = 1e-3
 """How far from a rotation the digits that a file prints may be."""
 
-_TOO_FAR_M = 1e12
-"""No place on or near a planet."""
+_SCAN = "scan '{scan}': "
 
 
 def is_rotation(matrix, tolerance=_TOLERANCE):
@@ -27,7 +30,7 @@ def rigid(rotation, translation):
     return pose
 
 
-def ptx_pose(position, axes, matrix, place):
+def ptx_pose(position, axes, matrix, scan):
     """The pose of a PTX header, which says it twice.
 
     Parameters
@@ -38,8 +41,8 @@ def ptx_pose(position, axes, matrix, place):
         The scanner's axes in the world, one per row.
     matrix : (4, 4) float64
         Row-vector convention, the translation in the last row.
-    place : str
-        Names the scan in warnings.
+    scan : str
+        Its name, for warnings.
 
     Returns
     -------
@@ -49,34 +52,43 @@ def ptx_pose(position, axes, matrix, place):
         One for a matrix that is no rigid motion, or disagrees with position and axes.
     """
     pose = matrix.T
-    stated = rigid(axes.T, position) if is_rotation(axes) and (np.abs(position) < _TOO_FAR_M).all() else None
-    if not (np.abs(pose) < _TOO_FAR_M).all() or np.abs(pose[3] - [0, 0, 0, 1]).max() > _TOLERANCE:
-        fault = "its matrix is corrupt (expected finite numbers and 0 0 0 1 as its last column)"
-    elif abs(np.linalg.det(pose[:3, :3])) < 1e-9:
-        fault = "its matrix is singular"
+    stated = rigid(axes.T, position) if is_rotation(axes) and (np.abs(position) < FARTHEST_M).all() else None
+    if not (np.abs(pose) < FARTHEST_M).all() or np.abs(pose[3] - [0, 0, 0, 1]).max() > _TOLERANCE:
+        fault = Message("its matrix is corrupt (expected finite numbers and 0 0 0 1 as its last column)")
+    elif not is_plausible(pose):
+        fault = Message("its matrix is singular, or scales by more than can be meant")
     else:
         fault = None
     if fault:
-        instead = "the identity is used: place the scan by hand" if stated is None else "its position and axes are used"
-        return np.eye(4) if stated is None else stated, [f"{place}: {fault}; {instead}"]
+        instead = (
+            Message("the identity is used: place the scan by hand")
+            if stated is None
+            else Message("its position and axes are used")
+        )
+        told = Message(_SCAN + "{fault}; {instead}", scan=scan, fault=fault, instead=instead)
+        return np.eye(4) if stated is None else stated, [told]
     # The digits that are printed for 0 0 0 1 are no part of the motion.
     pose = np.vstack([pose[:3], [0.0, 0.0, 0.0, 1.0]])
     if not is_rotation(pose[:3, :3]):
-        return pose, [f"{place}: its matrix scales, shears or mirrors; it is used as it is"]
+        return pose, [Message(_SCAN + "its matrix scales, shears or mirrors; it is used as it is", scan=scan)]
     if stated is None:
-        return pose, [f"{place}: its scanner axes are no rotation; the matrix is used"]
+        return pose, [Message(_SCAN + "its scanner axes are no rotation; the matrix is used", scan=scan)]
     size = max(1.0, np.abs(pose[:3, 3]).max())
     if np.abs(stated[:3, 3] - pose[:3, 3]).max() > _TOLERANCE * size:
         return pose, [
-            f"{place}: its scanner position {_numbers(position)} is not the matrix's {_numbers(matrix[3, :3])};"
-            " the matrix is used"
+            Message(
+                _SCAN + "its scanner position {position} is not the matrix's {other}; the matrix is used",
+                scan=scan,
+                position=_numbers(position),
+                other=_numbers(matrix[3, :3]),
+            )
         ]
     if np.abs(stated[:3, :3] - pose[:3, :3]).max() > 10 * _TOLERANCE:
-        return pose, [f"{place}: its scanner axes are not those of the matrix; the matrix is used"]
+        return pose, [Message(_SCAN + "its scanner axes are not those of the matrix; the matrix is used", scan=scan)]
     return pose, []
 
 
-def quaternion_pose(quaternion, translation, place):
+def quaternion_pose(quaternion, translation, scan):
     """The pose of an E57 scan.
 
     Parameters
@@ -84,8 +96,8 @@ def quaternion_pose(quaternion, translation, place):
     quaternion : (4,) float64
         w, x, y, z; brought to unit length.
     translation : (3,) float64
-    place : str
-        Names the scan in warnings.
+    scan : str
+        Its name, for warnings.
 
     Returns
     -------
@@ -95,12 +107,28 @@ def quaternion_pose(quaternion, translation, place):
     warnings = []
     length = math.hypot(*quaternion)
     if not math.isfinite(length) or length < 1e-9:
-        warnings.append(f"{place}: its rotation {_numbers(quaternion)} is corrupt; no rotation is used")
+        warnings.append(
+            Message(
+                _SCAN + "its rotation {rotation} is corrupt; no rotation is used",
+                scan=scan,
+                rotation=_numbers(quaternion),
+            )
+        )
         quaternion, length = np.array([1.0, 0.0, 0.0, 0.0]), 1.0
     elif abs(length - 1) > _TOLERANCE:
-        warnings.append(f"{place}: its rotation is a quaternion of length {length:.6g}, brought to 1")
-    if not (np.abs(translation) < _TOO_FAR_M).all():
-        warnings.append(f"{place}: its translation {_numbers(translation)} is corrupt; no translation is used")
+        warnings.append(
+            Message(
+                _SCAN + "its rotation is a quaternion of length {length:.6g}, brought to 1", scan=scan, length=length
+            )
+        )
+    if not (np.abs(translation) < FARTHEST_M).all():
+        warnings.append(
+            Message(
+                _SCAN + "its translation {translation} is corrupt; no translation is used",
+                scan=scan,
+                translation=_numbers(translation),
+            )
+        )
         translation = np.zeros(3)
     w, x, y, z = quaternion / length
     rotation = [

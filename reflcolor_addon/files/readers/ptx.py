@@ -5,6 +5,7 @@ import re
 import numpy as np
 
 from ...errors import ScanError
+from ...messages import Message, one_line
 from ..memory import require_memory
 from .grid import BYTES_PER_PIXEL, finish_scans
 from .poses import ptx_pose
@@ -14,29 +15,39 @@ _SHORTEST_LINE = len("0 0 0 0\n")
 _WIDTHS = (4, 7, 10)
 """`x y z i`, with `r g b`, with a normal after them."""
 
+_LONGEST_QUOTE = 40
 _COUNT = re.compile(r"\d{1,18}(\.0*)?")
 
 
-def read_ptx(path, *, progress=None, cancelled=None):
+def read_ptx(file, path, *, outside=False, progress=None, cancelled=None):
     """Read every scan of a PTX file.
 
     A scan is: columns, rows; the scanner's position and its three axes (4 lines of 3); a 4 x 4 matrix in row-vector
     convention; then columns x rows lines ``x y z intensity [red green blue]`` in the scanner's own frame, column by
     column. ``0 0 0`` is no return. CRLF, tabs, blank lines and a byte order mark are fine.
 
-    Parameters and errors are those of `read_scans`.
+    Parameters
+    ----------
+    file : binary file
+    path : Path
+        Its name, for messages.
+    progress, cancelled : callable, optional
+
+    Errors are those of `read_scans`.
     """
     stored = []
-    with path.open("rb") as file:
-        lines = TextLines(file, path, progress=progress, cancelled=cancelled)
-        while (line := lines.next_line()) is not None:
-            stored.append(_read_scan(lines, line, after=bool(stored)))
+    lines = TextLines(file, path, progress=progress, cancelled=cancelled)
+    while (line := lines.next_line()) is not None:
+        lines.check_cancelled()
+        stored.append(_read_scan(lines, line, after=bool(stored)))
     if not stored:
-        raise ScanError(f"{path.name}: holds no text, expected the header of a PTX scan")
+        raise ScanError("{file}: holds no text, expected the header of a PTX scan", file=path.name)
     for index, scan in enumerate(stored):
         scan["name"] = path.stem if len(stored) == 1 else f"{path.stem} {index + 1}"
-        scan["pose"], notes = ptx_pose(*scan.pop("placed"), f"scan '{scan['name']}'")
-        scan["warnings"] = notes + [f"scan '{scan['name']}': {note}" for note in scan["warnings"]]
+        scan["pose"], notes = ptx_pose(*scan.pop("placed"), scan["name"])
+        scan["warnings"] = notes + [
+            Message("scan '{scan}': {note}", scan=scan["name"], note=note) for note in scan["warnings"]
+        ]
     return finish_scans(stored, path, cancelled=cancelled)
 
 
@@ -51,9 +62,13 @@ def _read_scan(lines, first, *, after):
     count, left = columns * rows, lines.bytes_left()
     if count * _SHORTEST_LINE > left + 1:
         raise lines.error(
-            f"{columns} columns x {rows} rows announced, but the rest of the file ({left} bytes) has room for at most "
-            f"{(left + 1) // _SHORTEST_LINE} points; it is cut short, or its header is wrong",
+            "{columns} columns x {rows} rows announced, but the rest of the file ({left} bytes) has room for at most "
+            "{most} points; it is cut short, or its header is wrong",
             number=header,
+            columns=columns,
+            rows=rows,
+            left=left,
+            most=(left + 1) // _SHORTEST_LINE,
         )
     require_memory(count * BYTES_PER_PIXEL, f"{lines.path.name}: {columns} columns x {rows} rows", error=ScanError)
     body = _Body(lines, columns, rows)
@@ -86,7 +101,11 @@ class _Body:
             if not chunk:
                 columns, rows = self._grid
                 raise self._lines.error(
-                    f"the file ends after {at} of {count} points ({columns} columns x {rows} rows); it is cut short"
+                    "the file ends after {at} of {count} points ({columns} columns x {rows} rows); it is cut short",
+                    at=at,
+                    count=count,
+                    columns=columns,
+                    rows=rows,
                 )
             if any(line and not line.isspace() for line in chunk):
                 values = self._parsed(chunk, first)
@@ -97,9 +116,11 @@ class _Body:
         """What is to be said about this body."""
         notes = []
         if self._no_color:
-            notes.append("its values 5 to 7 are not whole numbers 0..255; taken as a scan without color")
+            notes.append(Message("its values 5 to 7 are not whole numbers 0..255; taken as a scan without color"))
         elif self.color is not None and self._colorless:
-            notes.append(f"{self._colorless:,} points have no color among others that have; they are black")
+            notes.append(
+                Message("{count:,} points have no color among others that have; they are black", count=self._colorless)
+            )
         return notes
 
     def _keep(self, values, at):
@@ -135,7 +156,7 @@ class _Body:
         for number, line in enumerate(chunk, first):
             words = line.split()
             if words and len(words) not in _WIDTHS:
-                raise self._lines.error(f"expected 4 or 7 values, found {_found(words)}", number=number)
+                raise self._lines.error("expected 4 or 7 values, found {found}", number=number, found=_found(words))
             if words:
                 values = [_number(self._lines, word, number) for word in words]
                 parsed.append(values + [np.nan] * (max(_WIDTHS) - len(values)))
@@ -145,23 +166,27 @@ class _Body:
 def _header_line(lines, what):
     line = lines.next_line()
     if line is None:
-        raise lines.error(f"the file ends where {what} was expected; it is cut short")
+        raise lines.error("the file ends where {what} was expected; it is cut short", what=what)
     return line
 
 
 def _count(lines, line, what, after):
     if _COUNT.fullmatch(line) and (value := int(line.partition(".")[0])) > 0:
         return value
-    expected = f"expected the number of {what} (a whole number above 0)"
+    found = _shortened(line)
     if after:
-        expected = "expected the end of the file or the number of columns of the next scan"
-    raise lines.error(f"{expected}, found '{_shortened(line)}'")
+        raise lines.error(
+            "expected the end of the file or the number of columns of the next scan, found '{found}'", found=found
+        )
+    raise lines.error("expected the number of {what} (a whole number above 0), found '{found}'", what=what, found=found)
 
 
 def _numbers(lines, count, what):
-    words = _header_line(lines, f"{what} ({count} numbers)").split()
+    words = _header_line(lines, what).split()
     if len(words) != count:
-        raise lines.error(f"expected {what} ({count} numbers), found {_found(words)}")
+        raise lines.error(
+            "expected {what} ({count} numbers), found {found}", what=what, count=count, found=_found(words)
+        )
     return np.array([_number(lines, word, lines.number) for word in words])
 
 
@@ -171,7 +196,7 @@ def _number(lines, word, number):
             raise ValueError
         return float(word)
     except ValueError:
-        raise lines.error(f"expected a number, found '{_shortened(word)}'", number=number) from None
+        raise lines.error("expected a number, found '{found}'", number=number, found=_shortened(word)) from None
 
 
 def _found(words):
@@ -179,5 +204,4 @@ def _found(words):
 
 
 def _shortened(text):
-    printable = "".join(c if c.isprintable() else "?" for c in text)
-    return printable if len(printable) <= 40 else printable[:37] + "..."
+    return one_line(text, _LONGEST_QUOTE)

@@ -10,14 +10,24 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import OutputError, ScanError
+from ...messages import Message, one_line
+from ...scan.limits import FARTHEST_M, STRONGEST
+from ...scan.scan import is_plausible
 from ..atomic import written_atomically
+from ..json_files import read_json
 from .sensor_models import DEPTH, RAY, Pinhole, Spherical
 
 FORMAT = "reflcolor-scan"
 VERSION = 1
-_LARGEST_FILE = 1 << 22
+EXPECTED = "a JSON description of a scan"
+LARGEST_FILE = 1 << 22
 _TEXTS = ("range", "reflectance", "color", "name", "range_type", "color_order")
 _KEYS = ("format", "version", *_TEXTS, "range_scale", "range_offset", "range_table", "model", "pose")
+_LONGEST_QUOTE = 60
+# What a sensor can plausibly be: metres of one unit, focal lengths and center in pixels, coefficients of a lens.
+_SCALES = (1e-12, 1e6)
+_CAMERA = {"fx": (1e-3, 1e7), "fy": (1e-3, 1e7), "cx": (-1e7, 1e7), "cy": (-1e7, 1e7)}
+_BENT = 1e6
 _REQUIRED = ("range", "reflectance", "model")
 
 
@@ -72,19 +82,7 @@ def load_description(path):
     ScanError
         One line that names the key.
     """
-    try:
-        if path.stat().st_size > _LARGEST_FILE:
-            raise ScanError(f"{path.name}: larger than {_LARGEST_FILE >> 20} MB, expected a small JSON description")
-        content = json.loads(path.read_bytes().decode("utf-8-sig"))
-    except OSError as error:
-        raise ScanError(f"{path}: cannot be read ({error.strerror or error})") from None
-    except json.JSONDecodeError as error:
-        raise ScanError(f"{path.name}: line {error.lineno}: not JSON: {error.msg}") from None
-    except (UnicodeDecodeError, RecursionError, ValueError) as error:
-        if isinstance(error, ScanError):
-            raise
-        raise ScanError(f"{path.name}: not a JSON text in UTF-8") from None
-    return check_description(content, path.name)
+    return check_description(read_json(path, EXPECTED, error=ScanError, most=LARGEST_FILE), path.name)
 
 
 def write_scan_json(
@@ -124,7 +122,7 @@ def write_scan_json(
     """
     path = Path(path)
     if not path.name.lower().endswith(".scan.json"):
-        raise OutputError(f"{path}: expected a name that ends in .scan.json")
+        raise OutputError("{file}: expected a name that ends in .scan.json", file=path)
     content = {
         "format": FORMAT,
         "version": VERSION,
@@ -150,7 +148,7 @@ def check_description(content, file_name):
     """Make a Description of the parsed JSON; ScanError in one line that names the key if it is none."""
     check = _Check(file_name)
     if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise ScanError(f'{file_name}: expected a JSON object with "format": "{FORMAT}"')
+        raise ScanError('{file}: expected a JSON object with "format": "{format}"', file=file_name, format=FORMAT)
     if content.get("version") != VERSION or isinstance(content["version"], bool):
         check.fail("version", f"{VERSION} (this file needs a newer release)", content.get("version"))
     check.keys(content, _KEYS, _REQUIRED)
@@ -163,11 +161,12 @@ def check_description(content, file_name):
     if "range_table" in content:
         if "range_scale" in content or "range_offset" in content:
             raise ScanError(
-                f"{file_name}: range_table: stands instead of range_scale and range_offset; give one or the other"
+                "{file}: range_table: stands instead of range_scale and range_offset; give one or the other",
+                file=file_name,
             )
         numbers["range_table"] = check.table(content["range_table"])
     if "range_scale" in content:
-        numbers["range_scale"] = check.number("range_scale", content["range_scale"], positive=True)
+        numbers["range_scale"] = check.number("range_scale", content["range_scale"], *_SCALES)
     if "range_offset" in content:
         numbers["range_offset"] = check.number("range_offset", content["range_offset"])
     if "pose" in content:
@@ -182,20 +181,26 @@ class _Check:
         self._file_name = file_name
 
     def fail(self, key, expected, found):
-        shown = json.dumps(found)
         raise ScanError(
-            f"{self._file_name}: {key}: expected {expected}, found {shown if len(shown) <= 60 else shown[:57] + '...'}"
+            "{file}: {key}: expected {expected}, found {found}",
+            file=self._file_name,
+            key=key,
+            expected=expected,
+            found=one_line(json.dumps(found), _LONGEST_QUOTE),
         )
 
     def keys(self, content, known, required, prefix=""):
         for key in content:
             if key not in known:
                 raise ScanError(
-                    f"{self._file_name}: {prefix}{key[:40]}: unknown key, expected one of {', '.join(known)}"
+                    "{file}: {key}: unknown key, expected one of {known}",
+                    file=self._file_name,
+                    key=prefix + one_line(key, _LONGEST_QUOTE),
+                    known=", ".join(known),
                 )
         for key in required:
             if key not in content:
-                raise ScanError(f"{self._file_name}: {prefix}{key}: is missing")
+                raise ScanError("{file}: {key}: is missing", file=self._file_name, key=prefix + key)
 
     def text(self, key, value):
         if not isinstance(value, str) or not value.strip() or not value.isprintable():
@@ -207,21 +212,18 @@ class _Check:
             self.fail(key, " or ".join(f'"{choice}"' for choice in choices), value)
         return value
 
-    def number(self, key, value, *, positive=False, low=-math.inf, high=math.inf):
-        expected = "a positive number" if positive else "a number"
-        if low > -math.inf:
-            expected += f" from {low:g} to {high:g}"
-        if isinstance(value, bool) or not isinstance(value, Real):
-            self.fail(key, expected, value)
-        number = float(value) if abs(value) < 1e300 else math.inf
-        if not math.isfinite(number) or (positive and number <= 0) or not low <= number <= high:
-            self.fail(key, expected, value)
+    def number(self, key, value, low=-FARTHEST_M, high=FARTHEST_M):
+        number = math.nan
+        if isinstance(value, Real) and not isinstance(value, bool) and abs(value) < 1e300:
+            number = float(value)
+        if not low <= number <= high:
+            self.fail(key, Message("a number from {low:,.12g} to {high:,.12g}", low=low, high=high), value)
         return number
 
     def span(self, key, value, low, high, widest):
         if not isinstance(value, list) or len(value) != 2:
             self.fail(key, "two numbers in degrees", value)
-        first, last = (self.number(key, end, low=low, high=high) for end in value)
+        first, last = (self.number(key, end, low, high) for end in value)
         if not 0 < abs(last - first) <= widest:
             self.fail(key, f"two different numbers at most {widest} degrees apart", value)
         return first, last
@@ -237,21 +239,24 @@ class _Check:
                 azimuth_deg=self.span("model.azimuth_deg", value["azimuth_deg"], -720, 720, 360),
                 elevation_deg=self.span("model.elevation_deg", value["elevation_deg"], -90, 90, 180),
             )
-        names = ("fx", "fy", "cx", "cy")
+        names = tuple(_CAMERA)
         self.keys(value, ("type", *names, "distortion"), names, "model.")
         lens = value.get("distortion", [])
         if not isinstance(lens, list) or len(lens) not in (0, 4, 5, 8):
             self.fail("model.distortion", "4, 5 or 8 numbers: k1, k2, p1, p2, k3, k4, k5, k6", lens)
         return Pinhole(
-            **{key: self.number(f"model.{key}", value[key], positive=key in ("fx", "fy")) for key in names},
-            distortion=tuple(self.number("model.distortion", number) for number in lens),
+            **{key: self.number(f"model.{key}", value[key], *_CAMERA[key]) for key in names},
+            distortion=tuple(self.number("model.distortion", number, -_BENT, _BENT) for number in lens),
         )
 
     def table(self, value):
         expected = "a list of at least two [value, metres] with growing values"
         if not isinstance(value, list) or len(value) < 2 or not all(isinstance(p, list) and len(p) == 2 for p in value):
             self.fail("range_table", expected, value)
-        table = np.array([[self.number("range_table", number) for number in pair] for pair in value])
+        key = "range_table"
+        table = np.array(
+            [(self.number(key, stored, -STRONGEST, STRONGEST), self.number(key, metres)) for stored, metres in value]
+        )
         if (np.diff(table[:, 0]) <= 0).any():
             self.fail("range_table", expected, value)
         return table
@@ -260,8 +265,15 @@ class _Check:
         if not isinstance(value, list) or [len(row) if isinstance(row, list) else 0 for row in value] != [4] * 4:
             self.fail("pose", "4 rows of 4 numbers", value)
         pose = np.array([[self.number("pose", number) for number in row] for row in value])
-        if (pose[3] != [0, 0, 0, 1]).any() or abs(np.linalg.det(pose[:3, :3])) < 1e-9:
-            self.fail("pose", "a matrix that can be inverted, with 0 0 0 1 as its last row", value)
+        if (pose[3] != [0, 0, 0, 1]).any() or not is_plausible(pose):
+            self.fail(
+                "pose",
+                Message(
+                    "a matrix that can be inverted, with 0 0 0 1 as its last row and at most {most:g} m",
+                    most=FARTHEST_M,
+                ),
+                value,
+            )
         return pose
 
 

@@ -1,0 +1,97 @@
+"""The child process that reads the points of an E57: run as a program, with what to read on its standard input.
+
+It imports nothing of the package, and needs nothing but this folder and the library: one line of JSON comes in (see
+`main`), then a line for each scan that is wanted; lines of JSON go out. Points go into a file that the parent holds
+open, one column of doubles after the other.
+"""
+
+import importlib.util
+import json
+import mmap
+import os
+import sys
+from pathlib import Path
+
+_RECORDS = 1 << 16
+"""That are read at a time."""
+
+
+def main(lines, answer):
+    """Do what the lines ask for.
+
+    Parameters
+    ----------
+    lines : iterable of str
+        First ``{"library": path, "folders": [of DLLs], "file": [number or null, path], "columns": [number or null,
+        path], "memory": bytes, "written": bytes, "seconds": number}``, then for each scan
+        ``{"scan": index, "count": records, "fields": [names]}``.
+    answer : callable
+        Called with each answer: ``{"at": records so far}``, ``{"done": records}``, or ``{"error": text}``.
+    """
+    from confinement import confine, reopened
+
+    lines = iter(lines)
+    request = json.loads(next(lines))
+    columns = _opened(*request["columns"])
+    library = _library(request["library"], request["folders"])
+    confine(**{key: request[key] for key in ("memory", "written", "seconds")})
+    answer({"ready": True})
+    try:
+        image = library.ImageFile(reopened(*request["file"]), "r")
+        scans = image.root()["data3D"]
+        for line in lines:
+            wanted = json.loads(line)
+            points = scans[wanted["scan"]]["points"]
+            done = _read(library, image, points, wanted["fields"], wanted["count"], columns, answer)
+            answer({"done": done})
+    except MemoryError:
+        answer({"error": "ErrorMemory"})
+    except Exception as error:  # whatever native code raises: its text is all that there is
+        answer({"error": str(error)[:10_000]})
+
+
+def _opened(number, path):
+    if number is None:
+        number = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
+    return memoryview(mmap.mmap(number, 0))
+
+
+def _library(path, folders):
+    """libE57 as it lies in the wheel, without the Python around it."""
+    for folder in folders:
+        os.add_dll_directory(folder)
+    spec = importlib.util.spec_from_file_location("libe57", path)
+    library = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(library)
+    return library
+
+
+def _read(library, image, points, fields, count, columns, answer):
+    chunk = memoryview(bytearray(8 * _RECORDS * len(fields)))
+    places = [slice(8 * _RECORDS * place, 8 * _RECORDS * (place + 1)) for place in range(len(fields))]
+    buffers = library.VectorSourceDestBuffer()
+    for name, place in zip(fields, places, strict=True):
+        buffers.append(library.SourceDestBuffer(image, name, chunk[place].cast("d"), _RECORDS, True, True))
+    reader = points.reader(buffers)
+    at = 0
+    try:
+        while at < count and (done := reader.read()):
+            done = min(done, count - at)
+            for place in range(len(fields)):
+                start, source = 8 * (place * count + at), places[place].start
+                columns[start : start + 8 * done] = chunk[source : source + 8 * done]
+            at += done
+            answer({"at": at})
+    finally:
+        reader.close()
+    return at
+
+
+def _answer(answer):
+    sys.stdout.write(json.dumps(answer) + "\n")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
+    main(sys.stdin, _answer)

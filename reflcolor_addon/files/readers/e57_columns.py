@@ -1,0 +1,208 @@
+"""The points of an E57 file, read by a child process into memory that is shared with it."""
+
+import importlib.util
+import mmap
+import os
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import ScanError
+from ..confined.child import Child, ChildFailed
+from ..gate import size_of
+
+SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "e57_points.py"
+_WORD = 8
+# What the child may take: the library, its nodes for every byte of the XML section, and its buffers.
+_BASE_BYTES, _BYTES_PER_XML_BYTE = 1 << 29, 40
+# Seconds of the processor: far more than the slowest machine needs.
+_BASE_SECONDS, _BYTES_PER_SECOND = 15, 2_000_000
+
+_REASONS = {
+    "ErrorBadChecksum": "a checksum does not match: the file is damaged; copy or export it again",
+    "ErrorBadXMLFormat": "its XML section is damaged; copy or export it again",
+    "ErrorXMLParser": "its XML section is damaged; copy or export it again",
+    "ErrorBadCVHeader": "its point section is damaged; copy or export it again",
+    "ErrorBadCVPacket": "its point section is damaged; copy or export it again",
+    "ErrorBadFileLength": "its length is not what its header says; copy or export it again",
+    "ErrorReadFailed": "it ends too early; copy or export it again",
+    "ErrorMemory": "does not fit into memory",
+}
+_FAILURES = {
+    "no python": "cannot be read: E57 is read by a Python program of its own, and none was found beside Blender; "
+    "export the scan as PTX",
+    "crashed": "what reads E57 crashed on it; the file is damaged, or made to do harm; export it again",
+    "killed": "takes longer to read, or more memory, than its size explains; export it again, or as PTX",
+    "stalled": "was not read on for {detail}; see whether its disk answers, or export it again",
+    "garbage": "what reads E57 answered what makes no sense; export the file again",
+}
+
+
+class E57Columns:
+    """Reads points, scan after scan; a context manager.
+
+    Parameters
+    ----------
+    file : binary file
+        The E57, open.
+    path : Path
+        Its place, for messages and for systems that cannot hand on what is open.
+    words : int
+        Numbers that the largest of the scans takes: records times fields.
+    xml_size : int
+        Bytes of the XML section.
+    cancelled : callable, optional
+
+    Raises
+    ------
+    ScanError
+        In one line, here and from every method.
+    Cancelled
+        If ``cancelled()`` returned True.
+    """
+
+    def __init__(self, file, path, *, words, xml_size, cancelled=None):
+        self._path = path
+        library, folders = _library(path)
+        size = max(1, words) * _WORD
+        limits = {
+            "memory": _BASE_BYTES + size + _BYTES_PER_XML_BYTE * xml_size,
+            "seconds": _BASE_SECONDS + size_of(file) // _BYTES_PER_SECOND,
+        }
+        columns, shown = _shared(size)
+        try:
+            self._memory = mmap.mmap(columns, size)
+            handed_on = sys.platform != "win32"
+            with _one_line(path):
+                self._child = Child(
+                    SCRIPT, inherited=[file.fileno(), columns] if handed_on else [], cancelled=cancelled, **limits
+                )
+                self._child.ask(
+                    {
+                        "library": str(library),
+                        "folders": folders,
+                        "file": [file.fileno() if handed_on else None, str(path)],
+                        "columns": [columns if handed_on else None, shown],
+                        "written": size,
+                        **limits,
+                    }
+                )
+        finally:
+            os.close(columns)
+            self._shown = shown
+
+    def __enter__(self):
+        try:
+            self._answer("ready")
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        self._child.__exit__()
+        if self._shown:
+            Path(self._shown).unlink(missing_ok=True)
+
+    def read(self, index, count, fields, tell):
+        """Read the points of a scan.
+
+        Parameters
+        ----------
+        index : int
+            Its place in the file, from 0.
+        count : int
+            Records that it announces.
+        fields : sequence of str
+        tell : callable
+            Called with a fraction.
+
+        Returns
+        -------
+        dict of str to (count,) float64
+            Views of the shared memory: the next reading overwrites them.
+        """
+        tell(0.0)
+        with _one_line(self._path):
+            self._child.ask({"scan": index, "count": count, "fields": list(fields)})
+        while (found := self._answer("at", "done", most=count))[0] == "at":
+            tell(found[1] / count)
+        if found[1] != count:
+            raise ScanError(
+                "{file}: holds {found:,} points where {count:,} were announced; it is damaged",
+                file=self._path.name,
+                found=found[1],
+                count=count,
+            )
+        return {
+            name: np.frombuffer(self._memory, np.float64, count, _WORD * count * place)
+            for place, name in enumerate(fields)
+        }
+
+    def _answer(self, *kinds, most=1):
+        """(kind, number) of the next answer, which is one of these."""
+        with _one_line(self._path):
+            answer = self._child.answer()
+            if isinstance(answer.get("error"), str):
+                raise ScanError("{file}: {reason}", file=self._path.name, reason=_reason(answer["error"]))
+            for kind in kinds:
+                number = answer.get(kind)
+                if isinstance(number, int) and 0 <= number <= most:
+                    return kind, number
+            raise ChildFailed("garbage")
+
+
+class _one_line:
+    """Turns a child's failure within the block into a ScanError."""
+
+    def __init__(self, path):
+        self._path = path
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, _kind, error, _traceback):
+        if isinstance(error, ChildFailed):
+            raise ScanError("{file}: " + _FAILURES[error.why], file=self._path.name, detail=error.detail) from error
+        return False
+
+
+def _library(path):
+    """Where libE57 lies in the wheel, and the folders of the libraries that it needs on Windows."""
+    try:
+        spec = importlib.util.find_spec("pye57")
+    except (ImportError, ValueError):
+        spec = None
+    folders = [Path(folder) for folder in spec.submodule_search_locations] if spec else []
+    found = next((file for folder in folders for file in sorted(folder.glob("libe57.*")) if _is_native(file)), None)
+    if found is None:
+        raise ScanError("{file}: E57 needs pye57, which this platform has not; export the scan as PTX", file=path.name)
+    beside = (found.parent, found.parent.with_name("pye57.libs"))
+    return found, [str(folder) for folder in beside if sys.platform == "win32" and folder.is_dir()]
+
+
+def _is_native(path):
+    return path.suffix in (".so", ".pyd")
+
+
+def _shared(size):
+    """A file for the columns that goes with its last user: its number, and its path where a child needs that."""
+    if hasattr(os, "memfd_create"):
+        number, shown = os.memfd_create("reflcolor"), ""
+    else:
+        number, shown = tempfile.mkstemp(prefix="reflcolor-")
+        if sys.platform != "win32":
+            Path(shown).unlink()
+            shown = ""
+    os.ftruncate(number, size)
+    return number, shown
+
+
+def _reason(text):
+    # libE57 tells its code in the first line, and where in its own source in the others.
+    first = text.strip().partition("\n")[0]
+    code = re.search(r"Error\w+", first)
+    return _REASONS.get(code[0] if code else None) or f"cannot be read as E57 ({first})"
