@@ -51,7 +51,7 @@ def load(name, data_dir):
     with TemporaryDirectory() as folder:
         path = Path(folder, f"{name}.scan.json")
         write_scan_json(path, **_description(name, data_dir))
-        (scan,) = read_scans(path)
+        (scan,) = read_scans(path, outside=True)
     return replace(scan, source=None)
 
 

@@ -292,7 +292,7 @@ def _bremen(view):
             reflectance_image=folder / f"Intensity_{view}.png",
             model={"type": "pinhole", "fx": 311.77, "fy": 311.77, "cx": 179.5, "cy": 179.5},
         )
-        (found,) = read_scans(path)
+        (found,) = read_scans(path, outside=True)
     return replace(found, source=None)
 
 

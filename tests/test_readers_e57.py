@@ -9,6 +9,7 @@ from sample_scans import intensity_of, room_points
 
 from reflcolor_addon.errors import Cancelled, ScanError
 from reflcolor_addon.files.readers import read_scans
+from reflcolor_addon.files.readers.e57_columns import SCRIPT
 
 POINTS = room_points()
 INTENSITY = intensity_of(POINTS)
@@ -296,7 +297,12 @@ def test_a_file_without_points_or_returns_is_refused(tmp_path):
 
 
 def test_files_larger_than_a_chunk_are_read_in_pieces_with_progress(tmp_path, monkeypatch):
-    monkeypatch.setattr("reflcolor_addon.files.readers.e57._CHUNK", 10)
+    # What the child process reads at a time is written in its own program.
+    script = tmp_path / "confined" / SCRIPT.name
+    script.parent.mkdir()
+    for file in SCRIPT.parent.glob("*.py"):
+        (script.parent / file.name).write_text(file.read_text().replace("_RECORDS = 1 << 16", "_RECORDS = 10"))
+    monkeypatch.setattr("reflcolor_addon.files.readers.e57_columns.SCRIPT", script)
     path = tmp_path / "garage.e57"
     write_e57(path, {"fields": scan_fields(), "name": "yard"})
     told = []
@@ -305,9 +311,10 @@ def test_files_larger_than_a_chunk_are_read_in_pieces_with_progress(tmp_path, mo
     assert told[0] == (0.0, "Reading garage.e57: yard")
     assert told[-1] == (1.0, "Reading garage.e57: yard")
     assert len(told) == 14
-    answers = iter([False, False, True])
-    with pytest.raises(Cancelled):
-        read_scans(path, cancelled=lambda: next(answers))
+    for number in range(1, 20, 3):
+        answers = iter([*[False] * number, True])
+        with pytest.raises(Cancelled):
+            read_scans(path, cancelled=lambda answers=answers: next(answers))
 
 
 def test_a_name_of_several_lines_becomes_one(tmp_path):

@@ -65,7 +65,7 @@ def test_scans_of_a_site_are_told_apart_and_the_header_names_them(tmp_path):
     drum = replace(drum, name="Trommel Süd\nelement x")
     write_ply([surface_of(scan, rgb, values), surface_of(drum, colors)], tmp_path / "site.ply")
     ply = PlyData.read(tmp_path / "site.ply")
-    assert any("scan 1: 6 rows x 16 columns: Trommel S\\xfcd?element x" in comment for comment in ply.comments)
+    assert any("scan 1: 6 rows x 16 columns: Trommel S\\xfcd\\nelement x" in comment for comment in ply.comments)
     table, first = ply["vertex"], scan.valid.sum()
     np.testing.assert_array_equal(table["scan"], np.repeat([0, 1], [first, drum.valid.sum()]))
     np.testing.assert_array_equal(table["confidence"][first:], 0)

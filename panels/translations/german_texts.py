@@ -179,6 +179,11 @@ CORE = {
         "Saatpunkt {seed}: keine Messung in Zeile {row}, Spalte {column}; "
         "verschoben nach Zeile {to_row}, Spalte {to_column}"
     ),
+    "{count} of {all} seeds lie where {scan} has no return, and were moved to the nearest pixel with one; are they of "
+    "another scan?": (
+        "{count} von {all} Saatpunkten liegen, wo {scan} keine Messung hat, und wurden zum nächsten Pixel mit einer "
+        "verschoben; gehören sie zu einem anderen Scan?"
+    ),
     "the colors are dark because most of the reflectance is; try tone {tone:g}": (
         "die Farben sind dunkel, weil die Reflektanz es größtenteils ist; Tonwert {tone:g} versuchen"
     ),

@@ -125,7 +125,10 @@ class Child:
 
     def _ended(self):
         """Why it ended, as ChildFailed takes it."""
-        status = self._process.wait(_ENDS_WITHIN_S)
+        try:
+            status = self._process.wait(_ENDS_WITHIN_S)
+        except subprocess.TimeoutExpired:
+            return "garbage", ""
         too_long = {"SIGXCPU", "SIGKILL"}
         name = _signal_name(-status) if status < 0 else ""
         return ("killed", name) if name in too_long else ("crashed", name or str(status))

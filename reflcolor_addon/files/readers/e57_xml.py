@@ -27,6 +27,7 @@ _FORBIDDEN = (
     "http://www.w3.org/2001/XInclude",
     "http://www.w3.org/1999/xlink",
 )
+_REFERENCES = ("schemaLocation", "noNamespaceSchemaLocation", "base", "href")
 _SEPARATOR = " "
 
 
@@ -194,8 +195,8 @@ class _Parser:
 
     def _check_references(self, name, attributes):
         for written in (name, *attributes):
-            space = written.split(_SEPARATOR)[0] if _SEPARATOR in written else ""
-            if space in _FORBIDDEN or "schemaLocation" in written or written.endswith(("base", "href")):
+            space, local = ["", *written.split(_SEPARATOR)[:2]][-2:]
+            if space in _FORBIDDEN or local in _REFERENCES:
                 self._refuse(
                     "its XML section refers to something outside of it ({what}), which no E57 does; it is not opened",
                     what=_written(written),
