@@ -39,7 +39,7 @@ def result():
 @pytest.mark.parametrize("name", ["wall.blend", "wall.usd", "render.png"])
 def test_a_full_disk_is_one_line_and_the_old_file_survives(blender, tmp_path, capfd, monkeypatch, result, name):
     module = importlib.import_module(f"{SCENE}.write_results")
-    monkeypatch.setattr(f"{SCENE}.render.SIZE", (64, 40))
+    monkeypatch.setattr(f"{SCENE}.render.picture_size", lambda aspect: (64, 40))
     path = tmp_path / name
     path.write_bytes(b"old and good")
     paths, picture = ([], path) if name.endswith(".png") else ([path], None)

@@ -62,7 +62,7 @@ def test_all_that_is_wrong_with_a_plan_can_be_named_at_once(folder):
         "-o out.blend needs Blender",
         "-o garage.ptx: each of several scans has its own",
         "--seeds missing.json: each of several scans has its own",
-        "missing.json: cannot be read",
+        "missing.json: no such file",
         "-o garage.ptx: is an input",
         "no_folder/{scan}.png: cannot be written: there is no folder no_folder",
     )
