@@ -28,11 +28,12 @@ from .verification import (
 _COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
 # Pixels, tile, radius, blur and spread from guess to guess: a direction from the scanner is found nearly exactly, and
 # weak evidence shows on fine levels only; a place aside is found roughly.
-_FROM_SCANNER = ([(1.0, 24, 8, 2.0, 0.5)], [(0.6, TILE, 8, 2.0, 0.5)])
+_FROM_SCANNER = ([(0.6, TILE, 8, 2.0, 0.5)],)
 _FROM_ASIDE = ([(*_COARSE, 10, 1.5, 1.2)], [(*_MIDDLE, 10, 1.0, 0.8)])
 # From this multiple of the needed evidence on, nothing better is looked for.
 _CONVINCING = 2.0
-_GUESSES = 14
+# How many are tried from the scanner, and from aside.
+_GUESSES = 10, 14
 _TRIED = 5
 _ROUNDS, _PROMISING, _WORTH = 2, 0.2, 1.05
 # A guess is refined with all there is only if its tiles tell something, a second only if it is nearly as good.
@@ -285,7 +286,7 @@ def _by_features(views, photo, step):
 def _tried(views, photo, guesses, aside, step):
     """The best camera from guesses, of which the better ones go on to the finer levels."""
     rng = np.random.default_rng(0)
-    promising = [(guess.camera(photo), NO_EVIDENCE) for guess in guesses[:_GUESSES]]
+    promising = [(guess.camera(photo), NO_EVIDENCE) for guess in guesses[: _GUESSES[aside]]]
     for levels in _FROM_ASIDE if aside else _FROM_SCANNER:
         tried = []
         for model, _ in promising:
