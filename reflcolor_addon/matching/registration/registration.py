@@ -32,6 +32,8 @@ _FROM_SCANNER = ([(0.6, TILE, 8, 2.0, 0.5)],)
 _FROM_ASIDE = ([(*_COARSE, 10, 1.5, 1.2)], [(*_MIDDLE, 10, 1.0, 0.8)])
 # From this multiple of the needed evidence on, nothing better is looked for.
 _CONVINCING = 2.0
+# And from this mean score of all tiles on: a homography may be right for a wall, where a camera is for all.
+_CLEAR = 1.2
 # How many are tried from the scanner, and from aside.
 _GUESSES = 10, 14
 _TRIED = 5
@@ -185,7 +187,7 @@ def register(views, photo, *, step=lambda text: None):
         found = attempt()
         if found.better_than(best):
             best = found
-        if best.beyond_doubt:
+        if best.beyond_doubt and best.evidence.mean >= _CLEAR:
             break
     return best.beyond_chance(views, photo)
 
