@@ -15,9 +15,9 @@ from ..reflcolor_addon.files.readers.pair_description import describe_pair
 from ..reflcolor_addon.report.report import input_entry, scan_entry
 from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.scan.object_arrays import object_arrays
-from ..reflcolor_addon.scan.orientation import flipped
 from .scene.notices import tell
 from .scene.provenance import record_import
+from .scene.reading_properties import ReadingProperties
 from .scene.scan_object import add_scan_object
 from .scene.texts import told
 from .scene.viewpoint import show_imported
@@ -31,8 +31,8 @@ _SENSOR_PROPERTIES = {
 }
 
 
-class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
-    """Import a structured laser scan (PTX, E57, or a range and a reflectance image) as a mesh"""
+class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operator, ImportHelper):
+    """Import a structured laser scan (E57, PTX, PCD and others, or a range and a reflectance image) as a mesh"""
 
     bl_idname = "reflcolor.import_scan"
     bl_label = "Import Laser Scan"
@@ -49,12 +49,6 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         default=radians(MAX_INCIDENCE_DEG),
         min=radians(45),
         max=radians(90),
-    )
-    flip_vertical: BoolProperty(
-        name="Flip Vertically", description="Turn the scan's grid upside down, where the file's order is misread"
-    )
-    flip_horizontal: BoolProperty(
-        name="Flip Horizontally", description="Mirror the scan's grid, where the file's order is misread"
     )
     sensor: EnumProperty(
         name="Sensor",
@@ -127,7 +121,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         pair = [path for path in paths if path.suffix.lower() in IMAGE_SUFFIXES]
         sensor, range_scale, swap = self._sensor_model(), self.range_scale, self.swap_images
         outside = self.outside_files
-        flips = {"vertical": self.flip_vertical, "horizontal": self.flip_horizontal}
+        reading = self.read_options()
         options = {
             "max_incidence_deg": degrees(self.max_incidence),
             "units_per_metre": 1 / context.scene.unit_settings.scale_length,
@@ -140,13 +134,11 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
             return [imported for path in files for imported in read(path, progress, cancelled)]
 
         def read(path, progress, cancelled):
-            scans = read_scans(path, outside=outside, progress=progress, cancelled=cancelled)
+            scans = read_scans(path, options=reading, outside=outside, progress=progress, cancelled=cancelled)
             inputs = [input_entry("scan", file, cancelled) for file in scan_files(path)]
             for index, scan in enumerate(scans, 1):
-                if any(flips.values()):
-                    scan = flipped(scan, **flips)
-                turned = [name for name, chosen in flips.items() if chosen]
-                yield object_arrays(scan, **options), scan_entry(scan, index, turned), inputs, scan.warnings
+                entry = scan_entry(scan, index, reading=reading)
+                yield object_arrays(scan, **options), entry, inputs, scan.warnings
 
         return work
 
@@ -176,8 +168,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.prop(self, "max_incidence")
-        layout.prop(self, "flip_vertical")
-        layout.prop(self, "flip_horizontal")
+        self.draw_reading(layout)
         layout.prop(self, "outside_files")
         header, body = layout.panel("REFLCOLOR_import_image_pair", default_closed=True)
         header.label(text="Image Pair")
@@ -193,7 +184,9 @@ class REFLCOLOR_OT_import_scan(JobOperator, bpy.types.Operator, ImportHelper):
 
 def draw_menu(self, _context):
     """Entry of File > Import."""
-    self.layout.operator(REFLCOLOR_OT_import_scan.bl_idname, text="Laser Scan (.ptx, .e57, .scan.json, image pair)")
+    self.layout.operator(
+        REFLCOLOR_OT_import_scan.bl_idname, text="Laser Scan (.e57, .ptx, .pcd and others, image pair)"
+    )
 
 
 classes = (REFLCOLOR_OT_import_scan,)

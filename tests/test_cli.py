@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -213,6 +214,26 @@ def test_real_scans_are_described(run_cli, data_dir):
         assert status == 0
         (scan,) = json.loads(out)["scans"]
         assert (scan["rows"], scan["columns"], scan["color"]) == (rows, columns, True)
+
+
+def test_a_scan_is_read_as_the_options_say_and_the_report_tells(run_cli, cli_folder):
+    (plain,) = read_scans(cli_folder / "garage.ptx")
+    options = ("--turn", "180", "--flip", "vertical", "--unit", "ft")
+    (scan,) = json.loads(run_cli("info", "garage.ptx", "--json", *options, "--step", "2")[1])["scans"]
+    assert (scan["rows"], scan["columns"]) == (-(-SHAPE[0] // 2), -(-SHAPE[1] // 2))
+    assert scan["range_m"][1] == pytest.approx(0.3048 * plain.range[::2, ::-2].max())
+    assert run_cli(*COLORIZE, *options, "-o", "out.png", "--report", "r.json")[0] == 0
+    entry = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))["scan"]
+    assert entry["flipped"] == ["vertical"] and entry["reading"] == {"turn_deg": 180, "unit": "ft"}
+
+
+def test_a_scan_without_reflectance_can_be_looked_at_but_is_not_colorized(run_cli, cli_folder):
+    scan = random_scan(1, SHAPE)
+    write_ptx(replace(scan, reflectance=np.full(SHAPE, 0.5, np.float32)), cli_folder / "garage.ptx")
+    status, _, err = run_cli("info", "garage.ptx")
+    assert status == 0 and "not colorized" in err
+    outcome = run_cli(*COLORIZE, "-o", "out.png")
+    assert_refused(outcome, 1, "garage: its reflectance is the same everywhere", "export it with intensity")
 
 
 # With Blender

@@ -64,7 +64,7 @@ def test_a_file_of_other_projects_imports_or_fails_with_one_line(data_dir, name,
         ("e57/dgraham_empty.e57", "is empty"),
         ("e57/dgraham_justxml.e57", "not an E57 file"),
         ("e57/olv_InvalidFileLength.e57", "cut short: 120 of 2048 bytes"),
-        ("pcd_pts/pdal_test.pts", "not a scan file by its name"),
+        ("pcd_pts/pdal_test.pts", "has no grid: its points have neither rows nor columns"),
     ],
 )
 def test_what_is_said_about_a_file_that_cannot_be_used(data_dir, name, said):
@@ -94,10 +94,10 @@ def test_what_is_no_file_or_no_scan_file_is_told(tmp_path):
     for suffix in (".ptx", ".e57", ".scan.json", ".txt"):
         path = tmp_path / f"nothing{suffix}"
         path.touch()
-        assert outcome(path) == f"{path}: is empty, expected a scan file (.ptx, .e57, .scan.json)"
+        assert outcome(path).startswith(f"{path}: is empty, expected a scan file (.ptx, .e57, .scan.json, ")
     photo = tmp_path / "photo.png"
     photo.write_bytes(b"\x89PNG")
-    assert outcome(photo) == "photo.png: not a scan file by its name, expected one of .ptx, .e57, .scan.json"
+    assert outcome(photo).startswith("photo.png: not a scan file by its name, expected one of .ptx, .e57, .scan.json, ")
 
 
 def test_a_suffix_that_does_not_fit_the_contents_is_told(tmp_path):

@@ -205,7 +205,7 @@ def test_of_points_in_one_pixel_the_first_return_is_kept_and_the_others_counted(
     assert scan.valid.all()
     assert scan.reflectance.ravel()[5] == 100
     assert scan.reflectance.ravel()[9] == INTENSITY.ravel()[9]
-    assert "2 points share a pixel" in scan.warnings[0]
+    assert "2 pixels have several returns; the first was taken, 2 others were left out" in scan.warnings[0]
 
 
 def test_the_order_of_points_in_the_file_does_not_matter(tmp_path):
@@ -252,21 +252,31 @@ def test_gray_colors_stand_in_for_a_missing_intensity(tmp_path):
     assert scan.color is None
 
 
-def test_a_scan_without_intensity_is_refused(tmp_path):
-    assert "has no intensity" in failure(tmp_path, {"fields": scan_fields(intensity=None, **colors())})
+def test_the_luminance_of_colors_stands_in_for_a_missing_intensity(tmp_path):
+    (scan,) = read(tmp_path, {"fields": scan_fields(intensity=None, **colors())})
+    assert "luminance of its colors stands in" in scan.warnings[0]
+    np.testing.assert_allclose(scan.reflectance, COLOR @ [0.299, 0.587, 0.114], atol=1e-3)
+    assert np.array_equal(scan.color, COLOR)
+
+
+def test_a_scan_with_nothing_to_colorize_can_be_looked_at(tmp_path):
+    (scan,) = read(tmp_path, {"fields": scan_fields(intensity=None)})
+    assert "not colorized" in scan.warnings[0] and not scan.reflectance.any() and scan.valid.all()
 
 
 def test_an_unstructured_scan_is_told_what_to_do(tmp_path):
-    fields = scan_fields(rowIndex=None)
-    assert failure(tmp_path, {"fields": fields, "name": "yard"}) == (
+    fields = scan_fields(rowIndex=None, columnIndex=None)
+    message = failure(tmp_path, {"fields": fields, "name": "yard"})
+    assert message.startswith(
         "garage.e57: scan 'yard' is unstructured (its points have no rowIndex and columnIndex); "
-        "export it as PTX or as a structured (gridded) E57"
+        "export it as PTX or as a structured (gridded) E57, or let a grid be laid over its points: --grid angle"
     )
     assert "none of its 2 scans can be used: scan" in failure(tmp_path, {"fields": fields}, {"fields": fields})
 
 
 def test_structured_scans_beside_unstructured_ones_are_read_and_the_others_told(tmp_path):
-    scans = read(tmp_path, {"fields": scan_fields(rowIndex=None)}, {"fields": scan_fields(), "name": "b"},
+    unstructured = {"fields": scan_fields(rowIndex=None, columnIndex=None)}
+    scans = read(tmp_path, unstructured, {"fields": scan_fields(), "name": "b"},
                  {"fields": scan_fields()})  # fmt: skip
     assert [scan.name for scan in scans] == ["b", "garage 3"]
     assert scans[0].warnings[0].startswith("left out: scan 'garage 1' is unstructured")

@@ -143,10 +143,33 @@ def test_gray_colors_stand_in_for_an_intensity_that_is_the_same_everywhere(tmp_p
     assert "taken as the intensity" in scan.warnings[0]
 
 
+@pytest.mark.parametrize("scale", [1 / 255, 257.0])
+def test_colors_are_brought_to_8_bits_from_the_scale_of_their_values(tmp_path, scale):
+    (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY, COLOR * scale))
+    assert np.array_equal(scan.color, COLOR)
+    assert scan.warnings == ()
+
+
 def test_values_that_are_no_colors_are_not_taken_for_colors(tmp_path):
-    (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY, COLOR / 255))
+    (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY, COLOR - 300.0))
     assert scan.color is None
-    assert "not whole numbers 0..255" in scan.warnings[0]
+    assert "taken as a scan without color" in scan.warnings[0]
+
+
+@pytest.mark.parametrize("word", ["-nan(ind)", "nan", "1.#QNAN", "-1.#IND00", "nan(snan)", "1.#INF"])
+def test_what_programs_print_for_no_number_is_no_return(tmp_path, word):
+    lines = lines_of(ptx_text(POINTS, INTENSITY, COLOR))
+    lines[13] = f"{word} {word} {word} 0.5 0 0 0\n"
+    (scan,) = read(tmp_path, "".join(lines))
+    assert np.count_nonzero(~scan.valid) == 1
+
+
+@pytest.mark.parametrize("end", ["\x1a", "\x1a\r\n", "\n\x1a\n", "\x00\x00", "# made by a program\n", "-1\n"])
+def test_what_stands_behind_the_last_scan_is_left_out(tmp_path, end):
+    (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY) + end)
+    assert np.array_equal(scan.points, POINTS)
+    told = [warning for warning in scan.warnings if "what follows its last scan" in warning]
+    assert len(told) == (end[0] in "#-")
 
 
 def test_numbers_that_are_not_finite_are_no_returns_and_counted(tmp_path):
@@ -177,10 +200,21 @@ def test_a_corrupt_matrix_is_never_silently_the_identity(tmp_path, matrix, said,
     assert ("identity" in scan.warnings[0]) == (axes is not None)
 
 
-def test_a_matrix_that_scales_is_kept_and_told(tmp_path):
-    (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY, matrix=np.diag([2, 2, 2, 1.0])))
-    assert np.array_equal(scan.pose, np.diag([2, 2, 2, 1.0]))
-    assert "scales" in scan.warnings[0]
+@pytest.mark.parametrize("scale", [2.0, 0.3048, 0.001])
+def test_a_matrix_that_scales_evenly_says_what_the_points_count(tmp_path, scale):
+    matrix = np.diag([scale, scale, scale, 1.0])
+    (scan,) = read(tmp_path, ptx_text(POINTS / scale, INTENSITY, matrix=matrix))
+    assert scan.points == pytest.approx(POINTS)
+    assert np.array_equal(scan.pose, np.eye(4))
+    assert f"scales by {scale:g}" in scan.warnings[0]
+
+
+def test_a_matrix_that_shears_is_kept_and_told(tmp_path):
+    matrix = np.eye(4)
+    matrix[0, 1] = 0.5
+    (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY, matrix=matrix))
+    assert np.array_equal(scan.pose, matrix.T)
+    assert "scales, shears or mirrors" in scan.warnings[0]
 
 
 @pytest.mark.parametrize(
@@ -229,12 +263,28 @@ def test_blank_lines_are_counted_in_line_numbers(tmp_path):
     assert failure(tmp_path, "".join(lines)).startswith("garage.ptx: line 43: expected 4 or 7 values, found 1")
 
 
-def test_a_file_that_ends_early_is_told(tmp_path):
+@pytest.mark.parametrize("lost", [1, 3, 9, 40])
+def test_of_a_file_that_ends_early_the_whole_columns_are_kept(tmp_path, lost):
     lines = lines_of(ptx_text(POINTS, INTENSITY))
-    message = failure(tmp_path, "".join(lines[:-3]))
-    assert message.startswith(f"garage.ptx: line {len(lines) - 3}: the file ends after 123 of 126 points")
+    (scan,) = read(tmp_path, "".join(lines[:-lost]) + "1.5 0.")
+    columns = (126 - lost) // 9
+    assert np.array_equal(scan.points, POINTS[:, :columns])
+    assert f"the file ends after {126 - lost} of 126 points" in scan.warnings[0]
+
+
+def test_a_file_without_two_whole_columns_is_refused(tmp_path):
+    lines = lines_of(ptx_text(POINTS, INTENSITY))
+    assert "it is cut short" in failure(tmp_path, "".join(lines[:20]))
     assert "it is cut short" in failure(tmp_path, "".join(lines[:10]))
     assert "it is cut short" in failure(tmp_path, "".join(lines[:7]))
+
+
+@pytest.mark.parametrize("kept", [0.9, 0.05, 0.01])
+def test_a_second_scan_that_is_cut_short_is_left_out_and_told(tmp_path, kept):
+    whole, other = ptx_text(POINTS, INTENSITY), ptx_text(POINTS * 2, INTENSITY)
+    (scan,) = read(tmp_path, whole + other[: int(len(other) * kept)])
+    assert np.array_equal(scan.points, POINTS)
+    assert "its scan 2 was left out: " in scan.warnings[-1]
 
 
 @pytest.mark.parametrize("size", ["4000000000\n4000000000", "999999999999999999\n1", "1\n999999999999999999"])
@@ -251,8 +301,8 @@ def test_a_size_that_does_not_fit_into_memory_is_refused(tmp_path, monkeypatch):
 
 
 def test_more_points_than_announced_are_told(tmp_path):
-    message = failure(tmp_path, ptx_text(POINTS, INTENSITY) + "1 2 3 4\n")
-    assert "expected the end of the file or the number of columns of the next scan, found '1 2 3 4'" in message
+    (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY) + "1 2 3 4\n")
+    assert "line 137: what follows its last scan is none, and was left out: '1 2 3 4'" in scan.warnings[-1]
 
 
 def test_a_scan_without_any_return_is_refused(tmp_path):

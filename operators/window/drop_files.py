@@ -3,10 +3,11 @@
 import bpy
 
 from ...reflcolor_addon.files.images import IMAGE_SUFFIXES
+from ...reflcolor_addon.files.readers import SCAN_SUFFIXES
 from ..scene import polls
 
 # Blender looks at the last suffix of a file alone.
-_SCANS, _SEEDS = ".ptx;.e57;.json", ".json"
+_SCANS, _SEEDS = ";".join(sorted({f".{suffix.rpartition('.')[2]}" for suffix in SCAN_SUFFIXES})), ".json"
 
 
 class REFLCOLOR_FH_scan(bpy.types.FileHandler):

@@ -83,6 +83,33 @@ _SEEDS = {
 }
 
 _SCANS = {
+    "Where the scanner stood, in the file's coordinates and unit": (
+        "Wo der Scanner stand, in Koordinaten und Einheit der Datei"
+    ),
+    "Say where the scanner stood, for points that are not measured from it": (
+        "Sagen, wo der Scanner stand, für Punkte, die nicht von ihm aus gemessen sind"
+    ),
+    "Lay a grid over the points by the angles at which the scanner saw them, for files without one": (
+        "Ein Raster nach den Winkeln über die Punkte legen, unter denen der Scanner sie sah, für Dateien ohne eines"
+    ),
+    "The farthest one": ("Das fernste"),
+    "The one with the most reflectance": ("Das mit der höchsten Reflektanz"),
+    "The nearest one": ("Das nächste"),
+    "Which of several returns of a pixel to take": ("Welches von mehreren Echos eines Pixels zu nehmen ist"),
+    "Keep only each row and column whose number is a multiple of this, for large scans": (
+        "Nur jede Zeile und Spalte behalten, deren Nummer ein Vielfaches davon ist, für große Scans"
+    ),
+    "International feet": ("Internationale Fuß"),
+    "As depth cameras count": ("Wie Tiefenkameras zählen"),
+    "Metres, unless the points tell otherwise": ("Meter, wenn die Punkte nichts anderes sagen"),
+    "What the coordinates in the file count": ("Was die Koordinaten in der Datei zählen"),
+    "By a quarter to the left": ("Um ein Viertel nach links"),
+    "Upside down": ("Auf den Kopf"),
+    "By a quarter to the right": ("Um ein Viertel nach rechts"),
+    "Leave it as the points tell": ("Lassen, wie die Punkte es sagen"),
+    "Turn the scan's image clockwise, where the file's order is misread": (
+        "Das Bild des Scans im Uhrzeigersinn drehen, wo die Reihenfolge der Datei falsch gelesen wird"
+    ),
     "A camera's perspective, as a time-of-flight camera has it": (
         "Die Perspektive einer Kamera, wie eine Laufzeitkamera sie hat"
     ),

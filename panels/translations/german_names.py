@@ -19,7 +19,7 @@ _OPERATORS = {
     "Export Colorized Scan": "Gefärbten Scan exportieren",
     "Import Laser Scan": "Laserscan importieren",
     "Keep Gray": "Grau lassen",
-    "Laser Scan (.ptx, .e57, .scan.json, image pair)": "Laserscan (.ptx, .e57, .scan.json, Bildpaar)",
+    "Laser Scan (.e57, .ptx, .pcd and others, image pair)": "Laserscan (.e57, .ptx, .pcd und andere, Bildpaar)",
     "Laser Scan Seeds (.json)": "Saatpunkte eines Laserscans (.json)",
     "Leave Preview": "Vorschau verlassen",
     "Load Photo": "Foto laden",
@@ -78,6 +78,13 @@ _PANELS = {
 }
 
 _PROPERTIES = {
+    "Position": "Ort",
+    "Scanner Position": "Standpunkt des Scanners",
+    "Grid by Angle": "Raster nach Winkeln",
+    "Returns": "Echos",
+    "Every": "Jede",
+    "File's Unit": "Einheit der Datei",
+    "Turn": "Drehen",
     "File Format": "Dateiformat",
     "Act": "Handlung",
     "Active Message": "Aktive Meldung",
@@ -173,6 +180,18 @@ _PROPERTIES = {
 }
 
 _CHOICES = {
+    "Points": "Punkte",
+    "Last": "Das letzte",
+    "Strongest": "Das stärkste",
+    "First": "Das erste",
+    "Inches": "Zoll",
+    "Feet": "Fuß",
+    "Centimetres": "Zentimeter",
+    "Millimetres": "Millimeter",
+    "Metres": "Meter",
+    "Left": "Links",
+    "Half": "Halb",
+    "Right": "Rechts",
     "PLY": "PLY",
     "USD": "USD",
     "glTF (GLB)": "glTF (GLB)",

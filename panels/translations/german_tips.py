@@ -44,8 +44,9 @@ _OPERATORS = {
     "Have the selected seeds, or those that are placed next, keep the scan gray around them": (
         "Die ausgewählten oder die nächsten Saatpunkte den Scan um sich herum grau lassen"
     ),
-    "Import a structured laser scan (PTX, E57, or a range and a reflectance image) as a mesh": (
-        "Einen strukturierten Laserscan (PTX, E57 oder ein Entfernungs- und ein Reflektanzbild) als Netz importieren"
+    "Import a structured laser scan (E57, PTX, PCD and others, or a range and a reflectance image) as a mesh": (
+        "Einen strukturierten Laserscan (E57, PTX, PCD und andere oder ein Entfernungs- und ein Reflektanzbild) als "
+        "Netz importieren"
     ),
     "Keep the selected seeds when the photos are matched again": (
         "Die ausgewählten Saatpunkte behalten, wenn die Fotos noch einmal zugeordnet werden"

@@ -11,7 +11,7 @@ from ..seeds.seeds import Seeds
 from .blender_tasks import require_blender
 from .paths import output_faults, photo_files, scan_files
 from .plan import PLACEHOLDER
-from .scan_job import surface_of
+from .scan_job import require_reflectance, surface_of
 
 ALL = "all"
 
@@ -83,6 +83,8 @@ def check_jobs(plan, jobs, *, refuse=_raise):
         As `check_plan`.
     """
     check_placeholder(plan, len(jobs), refuse)
+    for job in jobs:
+        _attempt(refuse, require_reflectance, job)
     outputs = [output.of(job.label) for output in plan.outputs for job in jobs]
     read = [path for job in jobs for _, path in job.inputs]
     named = dict.fromkeys((output.option, output.path) for output in outputs)

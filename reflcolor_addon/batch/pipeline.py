@@ -11,6 +11,7 @@ from ..messages import Message, about_scan
 from ..progress import part
 from .check import check_plan
 from .read import read_jobs
+from .scan_job import require_reflectance
 from .session import timed
 from .write import writing
 
@@ -95,6 +96,8 @@ def find_seeds(jobs, photos, settings, *, progress=None, cancelled=None):
     settings : Settings
     progress, cancelled : callable, optional
     """
+    for job in jobs:
+        require_reflectance(job)
     matchings = match_site(
         [job.opened() for job in jobs],
         photos,
@@ -111,6 +114,7 @@ def find_seeds(jobs, photos, settings, *, progress=None, cancelled=None):
 def colorize_job(job, settings, *, progress=None, cancelled=None):
     """Colorize the scan of a job, unless it is colorized already."""
     if job.colorization is None:
+        require_reflectance(job)
         job.colorization = colorize(job.opened(), job.seeds, settings, progress=progress, cancelled=cancelled)
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..errors import UsageError
+from ..files.readers.options import AS_IT_IS, ReadOptions
 from ..settings import Settings
 
 PLACEHOLDER = "{scan}"
@@ -72,6 +73,8 @@ class Plan:
         Photos that the seeds name, or that seeds are found in.
     outside_files : bool
         Let a `.scan.json` name images outside of its own folder.
+    reading : ReadOptions
+        How the scans are to be read.
     """
 
     scans: tuple[Path, ...]
@@ -82,6 +85,7 @@ class Plan:
     hand: Path | None = None
     photos: tuple[Path, ...] = ()
     outside_files: bool = False
+    reading: ReadOptions = AS_IT_IS
 
     @property
     def needs_colors(self):

@@ -51,7 +51,7 @@ def read_jobs(plan, given, session, times):
 def _scan_jobs(plan, session):
     found = []
     for path in plan.scans:
-        scans = session.read_scans(path, outside=plan.outside_files)
+        scans = session.read_scans(path, outside=plan.outside_files, options=plan.reading)
         if len(plan.scans) > 1 or plan.wanted == ALL:
             found += [(path, index, scan) for index, scan in enumerate(scans, 1)]
         else:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..color.colorization import Colorization
+from ..errors import ScanError
 from ..matching import Matching
 from ..scan.scan import Scan
 from ..scan.surface import ScanSurface
@@ -72,3 +73,13 @@ def surface_of(job):
     if job.colorization is None:
         return ScanSurface(job.scan, None)
     return ScanSurface(job.scan, job.colorization.rgb, job.colorization.values)
+
+
+def require_reflectance(job):
+    """Raise ScanError if a job's scan has no reflectance, without which no color can spread."""
+    if not job.opened().has_reflectance:
+        raise ScanError(
+            "{scan}: its reflectance is the same everywhere, so that there is nothing to colorize it by; export it "
+            "with intensity, or with colors",
+            scan=job.name,
+        )

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..errors import Cancelled
 from ..files.readers import read_scans
+from ..files.readers.options import AS_IT_IS
 from .blender_tasks import BlenderTasks
 
 
@@ -59,9 +60,9 @@ class Session:
             raise Cancelled
         self.show(fraction, text)
 
-    def read_scans(self, path, *, outside=False):
-        """Read all scans of a file, with progress; ``outside`` as in `read_scans`."""
-        return read_scans(path, outside=outside, progress=self.progress, cancelled=self.cancelled)
+    def read_scans(self, path, *, outside=False, options=AS_IT_IS):
+        """Read all scans of a file, with progress; ``outside`` and ``options`` as in `read_scans`."""
+        return read_scans(path, options=options, outside=outside, progress=self.progress, cancelled=self.cancelled)
 
 
 @contextmanager

@@ -117,7 +117,7 @@ class _Writer:
                 self._hashed[role, path] = input_entry(role, path, self._session.cancelled)
         outputs = [output.of(job.label) for output in self._plan.outputs]
         report = build_report(
-            scan_entry(job.scan, job.index),
+            scan_entry(job.scan, job.index, reading=self._plan.reading),
             job.colorization,
             self._plan.settings,
             given_seeds=job.seeds,

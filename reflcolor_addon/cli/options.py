@@ -6,6 +6,8 @@ from functools import partial
 from pathlib import Path
 
 from ..errors import SettingsError, UsageError
+from ..files.readers import SCAN_SUFFIXES
+from ..files.readers.options import ANGLE, AUTO, RETURNS, STORED, TURNS, UNITS, ReadOptions
 from ..settings import DEFAULT_PRESET, MATCHING, PRESETS, PROPAGATION, SETTINGS, Settings
 
 _SCAN_HELP = "which scan of a file of several: its name, its index as info prints it (counted from 1), or all"
@@ -19,18 +21,80 @@ def add_scans(parser):
         metavar="SCAN",
         type=Path,
         nargs="+",
-        help="scan file: .ptx, .e57 or .scan.json; of several, of one site, every scan is taken",
+        help=f"scan file: {', '.join(SCAN_SUFFIXES)}; of several, of one site, every scan is taken",
     )
     parser.add_argument("--scan", dest="wanted", metavar="NAME_OR_INDEX", help=_SCAN_HELP)
-    add_outside_files(parser)
+    add_reading(parser)
 
 
-def add_outside_files(parser):
-    """What else than its own folder a side file may name."""
-    parser.add_argument(
+def add_reading(parser):
+    """How a scan file is to be read, where a person knows better than the file tells."""
+    group = parser.add_argument_group("reading scans")
+    default = ReadOptions()
+    group.add_argument(
+        "--turn",
+        type=int,
+        choices=TURNS,
+        default=default.turn_deg,
+        help="turn the scan's image clockwise by so many degrees (default %(default)s)",
+    )
+    group.add_argument(
+        "--flip",
+        choices=("vertical", "horizontal"),
+        action="append",
+        default=[],
+        help="turn the order of its rows, or of its columns, after that; may be given twice",
+    )
+    group.add_argument(
+        "--unit",
+        choices=(AUTO, *UNITS),
+        default=default.unit,
+        help="what the coordinates count (default %(default)s: metres, unless the points tell otherwise)",
+    )
+    group.add_argument(
+        "--step",
+        type=int,
+        metavar="N",
+        default=default.step,
+        help="keep every N-th row and column (default %(default)s)",
+    )
+    group.add_argument(
+        "--returns",
+        choices=RETURNS,
+        default=default.returns,
+        help="which of several returns of a pixel to take (default %(default)s)",
+    )
+    group.add_argument(
+        "--grid",
+        choices=(STORED, ANGLE),
+        default=default.grid,
+        help="the file's own grid, or one laid over its points by angle (default %(default)s)",
+    )
+    group.add_argument(
+        "--position",
+        type=float,
+        nargs=3,
+        metavar=("X", "Y", "Z"),
+        help="where the scanner stood, in the file's coordinates; without this as the file says, or as is found",
+    )
+    group.add_argument(
         "--outside-files",
         action="store_true",
         help="let a .scan.json name images outside of its own folder; without this none is opened there",
+    )
+
+
+def reading_of(arguments):
+    """Return the ReadOptions that the options say."""
+    return ReadOptions(
+        turn_deg=arguments.turn,
+        flip_vertical="vertical" in arguments.flip,
+        flip_horizontal="horizontal" in arguments.flip,
+        unit=arguments.unit,
+        step=arguments.step,
+        returns=arguments.returns,
+        grid=arguments.grid,
+        position=None if arguments.position is None else tuple(arguments.position),
     )
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ..errors import Cancelled
 from ..files.gate import opened, size_of
+from ..files.readers.options import AS_IT_IS
 from ..scan.normalization import PERCENTILES
 from ..version import __version__
 
@@ -78,7 +79,7 @@ def stamped(report):
     return report | {"created": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")}
 
 
-def scan_entry(scan, index, flipped=()):
+def scan_entry(scan, index, reading=AS_IT_IS):
     """Return what a report says of a scan.
 
     Parameters
@@ -86,10 +87,12 @@ def scan_entry(scan, index, flipped=()):
     scan : Scan
     index : int
         The scan's place in its file, from 1.
-    flipped : sequence of {"vertical", "horizontal"}
-        How its grid was turned after it was read.
+    reading : ReadOptions
+        How its file was read.
     """
     rows, columns = scan.shape
+    flips = {"vertical": reading.flip_vertical, "horizontal": reading.flip_horizontal}
+    told = {name: value for name, value in reading.as_dict().items() if not name.startswith("flip_")}
     return {
         "name": scan.name,
         "index": index,
@@ -97,8 +100,8 @@ def scan_entry(scan, index, flipped=()):
         "columns": columns,
         "returns": int(scan.valid.sum()),
         "full_turn": scan.full_turn,
-        "flipped": list(flipped),
-    }
+        "flipped": [name for name, chosen in flips.items() if chosen],
+    } | ({"reading": told} if told else {})
 
 
 def input_entry(role, path, cancelled=None):

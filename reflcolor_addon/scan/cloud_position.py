@@ -39,10 +39,14 @@ def position_of_cloud(points, named=()):
     found = _found(points)
     if found is not None:
         places.append(found)
-        scores.append(conflicts(points, found) * _EXACT)
+        scores.append(conflicts(points, found))
     if not places or min(scores) > _MOST_CONFLICTS:
         return None
-    return places[int(np.argmin(scores))]
+    best = int(np.argmin(scores))
+    exact = [
+        place for place, score in zip(places[: len(named)], scores, strict=False) if score <= _EXACT * scores[best]
+    ]
+    return exact[0] if exact else places[best]
 
 
 def conflicts(points, place):

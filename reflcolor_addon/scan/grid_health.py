@@ -13,6 +13,8 @@ _WHOLE = 0.75
 
 _COARSEST = 8
 _FEWEST_LINES = 3
+_FEWEST_RETURNS = 64
+"""Fewer tell nothing of how a grid was thinned."""
 _SAMPLES = 1 << 22
 
 
@@ -79,7 +81,10 @@ def coarser(valid):
     ValueError
         If it was thinned so far that no grid of at most a few pixels in one is whole.
     """
-    if min(valid.shape) < 2 or neighbor_share(valid) >= _THINNED:
+    if min(valid.shape) < 2 or np.count_nonzero(valid) < _FEWEST_RETURNS:
+        return None
+    # A scan of few columns has no neighbors across, but has them along; one that was thinned has them nowhere.
+    if max(_neighbor_shares(valid), default=1.0) >= _THINNED:
         return None
     for stride in range(2, _COARSEST + 1):
         if min(valid.shape) < 2 * stride:
@@ -93,6 +98,12 @@ def coarser(valid):
 
 def neighbor_share(valid):
     """Return the share of returns, 0..1, that have a return to the right and below, in the mean; 1 for no returns."""
+    shares = _neighbor_shares(valid)
+    return float(np.mean(shares)) if shares else 1.0
+
+
+def _neighbor_shares(valid):
+    """The share of returns that have one to the right, and of those that have one below."""
     step = max(1, valid.size // _SAMPLES)
     shares = []
     for one, other in ((valid[:, :-1], valid[:, 1:]), (valid[:-1], valid[1:])):
@@ -100,7 +111,7 @@ def neighbor_share(valid):
         count = np.count_nonzero(one)
         if count:
             shares.append(np.count_nonzero(one & other) / count)
-    return float(np.mean(shares)) if shares else 1.0
+    return shares
 
 
 def nearest_to_center(rows, cols, cells):

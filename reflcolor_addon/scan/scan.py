@@ -115,6 +115,12 @@ class Scan:
         return self.valid.shape
 
     @cached_property
+    def has_reflectance(self):
+        """False where it is the same everywhere, as files without any have it: then there is nothing to colorize by."""
+        seen = self.reflectance[self.valid]
+        return seen.size < 2 or bool(seen.min() < seen.max())
+
+    @cached_property
     def range(self):
         """(H, W) float64, metres from the scanner; 0 where not valid."""
         return np.sqrt(np.einsum("ijk,ijk->ij", self.points, self.points))

@@ -5,7 +5,7 @@ from pathlib import Path
 from ...batch.pipeline import run_plan
 from ...batch.plan import IMAGE, MESH, RENDER, REPORT, RESULT_SUFFIXES, SCENE, Output, Plan, result_output
 from ...errors import UsageError
-from ..options import add_matching, add_photos, add_propagation, add_scans, settings_of
+from ..options import add_matching, add_photos, add_propagation, add_scans, reading_of, settings_of
 
 NAME = "colorize"
 HELP = "color scans from seeds or photos"
@@ -58,6 +58,7 @@ def run(arguments, session):
         scans=tuple(arguments.input),
         wanted=arguments.wanted,
         outside_files=arguments.outside_files,
+        reading=reading_of(arguments),
         seeds=arguments.seeds,
         photos=tuple(arguments.photo),
         settings=settings_of(arguments),

@@ -8,7 +8,8 @@ from ...batch.read import choose_scan
 from ...color.evaluation import evaluate
 from ...errors import ImageError, ScanError
 from ...files.images import read_image
-from ..options import add_outside_files
+from ...files.readers import SCAN_SUFFIXES
+from ..options import add_reading, reading_of
 
 NAME = "evaluate"
 HELP = "measure colors against the true ones"
@@ -19,7 +20,7 @@ _TITLES = {"color_alone": "color alone", "as_is": "as is"}
 
 def add_arguments(parser):
     """Declare what ``evaluate`` takes."""
-    parser.add_argument("input", metavar="SCAN", type=Path, help="scan file: .ptx, .e57 or .scan.json")
+    parser.add_argument("input", metavar="SCAN", type=Path, help=f"scan file: {', '.join(SCAN_SUFFIXES)}")
     parser.add_argument("result", metavar="RESULT.png", type=Path, help="colorized image, of the size of the grid")
     parser.add_argument(
         "--truth", metavar="IMAGE", type=Path, help="true colors, of the same size; by default the scan's own"
@@ -30,15 +31,14 @@ def add_arguments(parser):
         metavar="NAME_OR_INDEX",
         help="which scan of the file: its name, or its index as info prints it, counted from 1",
     )
-    add_outside_files(parser)
+    add_reading(parser)
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
 
 
 def run(arguments, session):
     """Print how far the colors of a result are from the true ones, over the pixels that have both."""
-    index, scan = choose_scan(
-        session.read_scans(arguments.input, outside=arguments.outside_files), arguments.wanted, arguments.input
-    )
+    scans = session.read_scans(arguments.input, outside=arguments.outside_files, options=reading_of(arguments))
+    index, scan = choose_scan(scans, arguments.wanted, arguments.input)
     session.warnings += scan.warnings
     rgb = _image_of(scan, arguments.result)
     if arguments.truth is not None:

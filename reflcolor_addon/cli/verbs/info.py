@@ -4,7 +4,10 @@ import json
 import math
 from pathlib import Path
 
-from ..options import add_outside_files
+from ...errors import UsageError
+from ...files.readers import FORMATS, SCAN_SUFFIXES
+from ...files.readers.formats import REFUSED
+from ..options import add_reading, reading_of
 
 NAME = "info"
 HELP = "say what is in a scan file"
@@ -14,14 +17,22 @@ VERSION = 1
 
 def add_arguments(parser):
     """Declare what ``info`` takes."""
-    parser.add_argument("input", metavar="SCAN", type=Path, help="scan file: .ptx, .e57 or .scan.json")
-    add_outside_files(parser)
+    parser.add_argument("input", metavar="SCAN", type=Path, nargs="?", help=f"scan file: {', '.join(SCAN_SUFFIXES)}")
+    add_reading(parser)
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
+    parser.add_argument(
+        "--formats", action="store_true", help="list the formats that can be read, and the way out of others"
+    )
 
 
 def run(arguments, session):
-    """Print a description of every scan in the file."""
-    scans = session.read_scans(arguments.input, outside=arguments.outside_files)
+    """Print a description of every scan in the file, or the formats that can be read."""
+    if arguments.formats:
+        session.say("\n".join([*map(_format_line, FORMATS), *_refused_lines()]))
+        return
+    if arguments.input is None:
+        raise UsageError("SCAN: name a scan file, or ask for --formats")
+    scans = session.read_scans(arguments.input, outside=arguments.outside_files, options=reading_of(arguments))
     descriptions = [describe(index, scan) for index, scan in enumerate(scans, 1)]
     if arguments.json:
         document = {"format": FORMAT, "version": VERSION, "file": str(arguments.input), "scans": descriptions}
@@ -29,6 +40,18 @@ def run(arguments, session):
     else:
         session.say("\n".join(_as_text(description) for description in descriptions))
     session.warnings += [warning for scan in scans for warning in scan.warnings]
+
+
+def _format_line(kind):
+    return f"{kind.name:<14} {', '.join(kind.suffixes):<31} {kind.about}"
+
+
+def _refused_lines():
+    """One line for each maker whose format is closed."""
+    makers = {}
+    for suffix, way in REFUSED.items():
+        makers.setdefault(way, []).append(suffix)
+    return [f"{'closed':<14} {', '.join(suffixes):<31} {way}" for way, suffixes in makers.items()]
 
 
 def describe(index, scan):

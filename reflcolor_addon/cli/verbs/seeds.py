@@ -5,7 +5,7 @@ from pathlib import Path
 from ...batch.pipeline import run_plan
 from ...batch.plan import MATCHES, SEEDS, Output, Plan
 from ...errors import UsageError
-from ..options import add_matching, add_photos, add_scans, settings_of
+from ..options import add_matching, add_photos, add_scans, reading_of, settings_of
 
 NAME = "seeds"
 HELP = "find seeds in photos"
@@ -48,6 +48,7 @@ def run(arguments, session):
         scans=tuple(arguments.input),
         wanted=arguments.wanted,
         outside_files=arguments.outside_files,
+        reading=reading_of(arguments),
         hand=arguments.hand,
         photos=tuple(arguments.photo),
         settings=settings_of(arguments),

@@ -24,7 +24,7 @@ def main(lines, answer):
     lines : iterable of str
         First ``{"library": path, "folders": [of DLLs], "file": [number or null, path], "columns": [number or null,
         path], "memory": bytes, "written": bytes, "seconds": number}``, then for each scan
-        ``{"scan": index, "count": records, "fields": [names]}``.
+        ``{"scan": index, "vector": [names below it], "count": records, "fields": [names]}``.
     answer : callable
         Called with each answer: ``{"at": records so far}``, ``{"done": records}``, or ``{"error": text}``.
     """
@@ -41,8 +41,10 @@ def main(lines, answer):
         scans = image.root()["data3D"]
         for line in lines:
             wanted = json.loads(line)
-            points = scans[wanted["scan"]]["points"]
-            done = _read(library, image, points, wanted["fields"], wanted["count"], columns, answer)
+            records = scans[wanted["scan"]]
+            for name in wanted["vector"]:
+                records = records[name]
+            done = _read(library, image, records, wanted["fields"], wanted["count"], columns, answer)
             answer({"done": done})
     except MemoryError:
         answer({"error": "ErrorMemory"})
@@ -66,13 +68,13 @@ def _library(path, folders):
     return library
 
 
-def _read(library, image, points, fields, count, columns, answer):
+def _read(library, image, records, fields, count, columns, answer):
     chunk = memoryview(bytearray(8 * _RECORDS * len(fields)))
     places = [slice(8 * _RECORDS * place, 8 * _RECORDS * (place + 1)) for place in range(len(fields))]
     buffers = library.VectorSourceDestBuffer()
     for name, place in zip(fields, places, strict=True):
         buffers.append(library.SourceDestBuffer(image, name, chunk[place].cast("d"), _RECORDS, True, True))
-    reader = points.reader(buffers)
+    reader = records.reader(buffers)
     at = 0
     try:
         while at < count and (done := reader.read()):

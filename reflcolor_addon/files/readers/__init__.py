@@ -1,28 +1,34 @@
-"""Opens scan files: PTX, structured E57, and image pairs described by a `.scan.json`."""
+"""Opens scan files of every format that is listed here; a format is a module with a `FORMAT`."""
 
 from pathlib import Path
 
 from ...errors import ScanError
 from ..gate import opened
-from .e57 import read_e57
-from .image_pair import read_image_pair
-from .ptx import read_ptx
+from . import e57, image_pair, numpy_arrays, pcd, ply, ptx, text_cloud
+from .formats import REFUSED
+from .options import AS_IT_IS, ReadOptions
 
-SCAN_SUFFIXES = (".ptx", ".e57", ".scan.json")
+__all__ = ["FORMATS", "SCAN_SUFFIXES", "ReadOptions", "read_scans"]
+
+FORMATS = tuple(module.FORMAT for module in (ptx, e57, image_pair, pcd, ply, numpy_arrays, text_cloud))
+"""What can be read; dialogs, help texts and docs/formats.md list it."""
+
+SCAN_SUFFIXES = tuple(suffix for kind in FORMATS for suffix in kind.suffixes)
 """What scan files end in; for file dialogs and drag and drop."""
 
 _EXPECTED = f"a scan file ({', '.join(SCAN_SUFFIXES)})"
 _START = 512
-_READERS = dict(zip(SCAN_SUFFIXES, (read_ptx, read_e57, read_image_pair), strict=True))
 
 
-def read_scans(path, *, outside=False, progress=None, cancelled=None):
+def read_scans(path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
     """Read every scan of a file, upright and not mirrored.
 
     Parameters
     ----------
     path : path-like
         The suffix tells the format, in upper or lower case.
+    options : ReadOptions
+        What a person knows better than the file: its turn, unit, which returns to take.
     outside : bool
         Let a `.scan.json` name images outside of its own folder, too; who sends such a file could name any file here.
     progress : callable, optional
@@ -43,40 +49,36 @@ def read_scans(path, *, outside=False, progress=None, cancelled=None):
         If `cancelled()` returned True.
     """
     path = Path(path)
-    reader = next((read for suffix, read in _READERS.items() if path.name.lower().endswith(suffix)), None)
     try:
         with opened(path, _EXPECTED, error=ScanError) as file:
-            _check_kind(path, file.read(_START), reader)
+            kind = _kind_of(path, file.read(_START))
             file.seek(0)
-            return reader(file, path, outside=outside, progress=progress, cancelled=cancelled)
+            return kind.read(file, path, options=options, outside=outside, progress=progress, cancelled=cancelled)
     except MemoryError:
         raise ScanError("{file}: does not fit into memory", file=path.name) from None
 
 
-def _check_kind(path, start, reader):
-    contents = _contents(start)
-    if reader is None:
+def _kind_of(path, start):
+    """The Format of a file: by its name, which must not contradict its first bytes."""
+    name = path.name.lower()
+    named = next((kind for kind in FORMATS if name.endswith(kind.suffixes)), None)
+    found = next((kind for kind in FORMATS if kind.sniff is not None and kind.sniff(start)), None)
+    if named is None and (way := REFUSED.get(path.suffix.lower())):
+        raise ScanError("{file}: its format is closed. It is of {way}", file=path.name, way=way)
+    if named is None:
         known = ", ".join(SCAN_SUFFIXES)
-        if contents is None:
+        if found is None:
             raise ScanError("{file}: not a scan file by its name, expected one of {known}", file=path.name, known=known)
         raise ScanError(
             "{file}: not a scan file by its name, expected one of {known}; its contents look like {contents}: rename "
             "it",
             file=path.name,
             known=known,
-            contents=contents,
+            contents=found.suffixes[0],
         )
-    if contents and not path.name.lower().endswith(contents):
-        raise ScanError("{file}: its contents look like {contents}: rename it", file=path.name, contents=contents)
-
-
-def _contents(start):
-    """The suffix that the first bytes of a file speak for; None where they do not tell."""
-    if start.startswith(b"ASTM-E57"):
-        return ".e57"
-    text = start.removeprefix(b"\xef\xbb\xbf").split()
-    if text and text[0].startswith(b"{"):
-        return ".scan.json"
-    if len(text) > 2 and text[0].isdigit() and text[1].isdigit() and len(start.splitlines()[0].split()) == 1:
-        return ".ptx"
-    return None
+    # Text of plain numbers looks like a PTX where it begins with a count.
+    if found is not None and found is not named and named.sniff is not None:
+        raise ScanError(
+            "{file}: its contents look like {contents}: rename it", file=path.name, contents=found.suffixes[0]
+        )
+    return named

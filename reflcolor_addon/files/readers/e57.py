@@ -1,121 +1,104 @@
-"""E57, structured: every point knows its row and column."""
-
-import numpy as np
+"""E57: scans of points that know their row and column, or the line that they are in."""
 
 from ...errors import Cancelled, ScanError
-from ...messages import Message
 from ..gate import size_of
 from ..memory import require_memory
 from .e57_columns import E57Columns
-from .e57_file import COLOR, SPHERICAL, read_structure, scan_header, scan_name, scan_nodes
-from .e57_grid import IndexGrid, in_8_bits
-from .grid import BYTES_PER_PIXEL, UnusableScan, finish_scan, with_problems
-from .poses import quaternion_pose
+from .e57_file import read_structure, scan_name, scan_nodes
+from .e57_header import GROUP, GROUPS, INDEX, scan_header
+from .e57_points import stored_grids
+from .formats import Format
+from .grid import BYTES_PER_PIXEL, UnusableScan, finish_grid, with_problems
+from .options import AS_IT_IS
 
 
-def read_e57(file, path, *, outside=False, progress=None, cancelled=None):
+def read_e57(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
     """Read every structured scan of an E57 file.
 
-    Coordinates may be Cartesian or spherical and stay in the scan's own frame, apart from its pose. Pose, intensity
-    limits, color limits, index bounds and invalid states are all optional. Intensity is kept as it is; colors are
-    brought to 8 bits by their limits. Rows and columns are counted from the least that occurs, and may have holes.
+    Coordinates may be Cartesian or spherical and stay in the scan's own frame, apart from its pose. Pose, limits, index
+    bounds and invalid states are all optional. Intensity is kept as it is; colors are brought to 8 bits by what their
+    values are. Rows and columns are counted from the least that occurs, and may have holes; where there are none, lines
+    of points will do.
 
     Parameters
     ----------
     file : binary file
     path : Path
         Its name, for messages.
+    options : ReadOptions
     progress, cancelled : callable, optional
 
     Errors are those of `read_scans`; a file with none but unstructured scans is a ScanError.
     """
+    read = [scan for scan, *_ in each_scan(file, path, options=options, progress=progress, cancelled=cancelled)]
+    finished = [scan for scan in read if not isinstance(scan, UnusableScan)]
+    problems = [scan for scan in read if isinstance(scan, UnusableScan)]
+    return with_problems(finished, problems, len(read), path)
+
+
+def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
+    """Yield for every scan of an E57 file, in its order, (scan, order, cells).
+
+    Yields
+    ------
+    scan : Scan, or UnusableScan
+        The error for one that cannot be used.
+    order : GridOrder
+        The way from the stored grid to the scan's; None for one that cannot be used.
+    cells : (N,) int64
+        Pixel of the stored grid that each point of the file is in, row by row; -1 for none.
+    """
     root, xml_size = read_structure(file, path, cancelled)
     nodes = scan_nodes(root, path)
-    headers, problems = {}, []
-    for index, node in enumerate(nodes):
-        name = scan_name(node, path, index, len(nodes))
-        try:
-            header = scan_header(node, path.name, size_of(file), name)
-        except UnusableScan as error:
-            problems.append(error)
-            continue
-        require_memory(
-            header.count * (8 * len(header.fields) + BYTES_PER_PIXEL),
-            f"{path.name}: scan '{name}': {header.count:,} points",
-            error=ScanError,
-        )
-        headers[index] = name, header
-    if not headers:
-        return with_problems([], problems, len(nodes), path)
-    words = max(header.count * len(header.fields) for _, header in headers.values())
-    finished = []
+    headers = [_header(node, path, size_of(file), scan_name(node, path, i, len(nodes))) for i, node in enumerate(nodes)]
+    usable = [header for header in headers if not isinstance(header, UnusableScan)]
+    if not usable:
+        yield from ((header, None, None) for header in headers)
+        return
+    words = max(max(header.count * len(header.fields), header.group_count * len(GROUP)) for header in usable)
     with E57Columns(file, path, words=words, xml_size=xml_size, cancelled=cancelled) as columns:
-        for done, (index, (name, header)) in enumerate(headers.items()):
+        done = 0
+        for index, header in enumerate(headers):
+            if isinstance(header, UnusableScan):
+                yield header, None, None
+                continue
 
-            def tell(fraction, done=done, name=name):
+            def tell(fraction, done=done, name=header.name):
                 if cancelled and cancelled():
                     raise Cancelled
                 if progress:
-                    progress((done + fraction) / len(headers), f"Reading {path.name}: {name}")
+                    progress((done + fraction) / len(usable), f"Reading {path.name}: {name}")
 
+            done += 1
+            if header.grouped_by is not None and not header.has(INDEX):
+                groups = columns.read(index, header.group_count, GROUP, tell, vector=GROUPS)
+                header.groups = {name: values.copy() for name, values in groups.items()}
             read = columns.read(index, header.count, header.fields, tell)
             try:
-                finished.append(finish_scan(source=path, **_stored(path, header, read, name)))
+                stored, cells = stored_grids(read, header, options)
+                yield (*finish_grid(source=path, **stored), cells)
             except UnusableScan as error:
-                problems.append(error)
-    return with_problems(finished, problems, len(nodes), path)
+                yield error, None, None
 
 
-def _stored(path, header, columns, name):
-    """Keyword arguments of `finish_scan`."""
-    placed, warnings = quaternion_pose(header.quaternion, header.translation, name)
-    # Whatever is stored, also what is no number: finish_scan sorts it out.
-    with np.errstate(all="ignore"):
-        xyz = np.stack([columns.pop(axis) for axis in header.axes], axis=-1)
-        if header.axes is SPHERICAL:
-            valid = xyz[:, 0] > 0
-            xyz = _cartesian(xyz)
-        else:
-            valid = (xyz != 0).any(axis=-1)
-        # 1 is a direction without a distance, 2 nothing at all: neither is a return.
-        valid &= columns.pop(header.state, 0) == 0
-        faulty = valid & (columns.pop("isIntensityInvalid", 0) != 0)
-        valid &= ~faulty
-        color = None
-        if header.color:
-            color = np.stack([in_8_bits(columns.pop(channel), *header.limits[channel]) for channel in COLOR], axis=-1)
-            color[columns.pop("isColorInvalid", np.zeros(header.count)) != 0] = 0
-    if faulty.any():
-        warnings.append(
-            Message(
-                "scan '{scan}': {count:,} points without intensity were taken as no return",
-                scan=name,
-                count=np.count_nonzero(faulty),
-            )
-        )
-    grid = IndexGrid(columns.pop("rowIndex"), columns.pop("columnIndex"), header.limits, path.name, name)
-    doubled = grid.place(valid)
-    if doubled:
-        warnings.append(
-            Message(
-                "scan '{scan}': {count:,} points share a pixel with an earlier one and were left out",
-                scan=name,
-                count=doubled,
-            )
-        )
-    return {
-        "name": name,
-        "points": grid.spread(xyz),
-        "reflectance": grid.spread(columns["intensity"], np.float32) if "intensity" in columns else None,
-        "valid": grid.spread(valid),
-        "color": None if color is None else grid.spread(color),
-        "pose": placed,
-        "warnings": warnings,
-    }
+def _header(node, path, file_size, name):
+    """The ScanHeader of a scan, or the UnusableScan that says why it has none."""
+    try:
+        header = scan_header(node, path.name, file_size, name)
+    except UnusableScan as error:
+        return error
+    require_memory(
+        header.count * (8 * len(header.fields) + BYTES_PER_PIXEL),
+        f"{path.name}: scan '{name}': {header.count:,} points",
+        error=ScanError,
+    )
+    return header
 
 
-def _cartesian(spherical):
-    """(N, 3) x y z of range, azimuth (counterclockwise from +X) and elevation, metres and radians."""
-    distance, azimuth, elevation = spherical.T
-    level = distance * np.cos(elevation)
-    return np.stack([level * np.cos(azimuth), level * np.sin(azimuth), distance * np.sin(elevation)], axis=-1)
+FORMAT = Format(
+    name="E57",
+    suffixes=(".e57",),
+    read=read_e57,
+    sniff=lambda start: start.startswith(b"ASTM-E57"),
+    about="scans whose points know their row and column, or their line; others with --grid angle",
+)

@@ -107,7 +107,7 @@ class E57Columns:
         if self._shown:
             Path(self._shown).unlink(missing_ok=True)
 
-    def read(self, index, count, fields, tell):
+    def read(self, index, count, fields, tell, vector=("points",)):
         """Read the points of a scan.
 
         Parameters
@@ -119,6 +119,8 @@ class E57Columns:
         fields : sequence of str
         tell : callable
             Called with a fraction.
+        vector : sequence of str
+            Where the records are below the scan's node: its points, or its groups of them.
 
         Returns
         -------
@@ -127,7 +129,7 @@ class E57Columns:
         """
         tell(0.0)
         with _one_line(self._path):
-            self._child.ask({"scan": index, "count": count, "fields": list(fields)})
+            self._child.ask({"scan": index, "vector": list(vector), "count": count, "fields": list(fields)})
         while (found := self._answer("at", "done", most=count))[0] == "at":
             tell(found[1] / count)
         if found[1] != count:

@@ -1,4 +1,4 @@
-"""From the list of points that an E57 file holds to a grid: rows and columns, and colors in 8 bits."""
+"""From the list of points that an E57 file holds to a grid: rows and columns, and which of several returns counts."""
 
 import math
 
@@ -15,6 +15,8 @@ _MOST_MARGIN = 16
 """A grid emptier than this is no scan: its row or column numbers are wrong."""
 
 _LARGEST_INDEX = 2**40
+_ONE_DIRECTION_DEG = 2.0
+"""So far apart, at most, are the returns of one pulse, with the scanner a little away from where the file has it."""
 
 
 class IndexGrid:
@@ -26,8 +28,8 @@ class IndexGrid:
         Index of every point, of any sign, from any start.
     limits : dict
         (low, high) of ``rowIndex`` and ``columnIndex`` as the file states them, each may be None.
-    file_name, name : str
-        Of the file and the scan, for messages.
+    header : E57Header
+        For messages.
 
     Raises
     ------
@@ -37,8 +39,8 @@ class IndexGrid:
         If the grid does not fit into memory.
     """
 
-    def __init__(self, rows, columns, limits, file_name, name):
-        self._place = {"file": file_name, "scan": name}
+    def __init__(self, rows, columns, limits, header):
+        self._place = header.place
         most = _CELLS_PER_POINT * (len(rows) + 1000)
         # The file's own bounds tell of margins without a point; not where they claim far more than the points fill.
         for stated in (limits, {field: (None, None) for field in limits}):
@@ -57,43 +59,73 @@ class IndexGrid:
             )
         require_memory(
             height * width * BYTES_PER_PIXEL,
-            f"{file_name}: scan '{name}': {height} rows x {width} columns",
+            f"{header.file_name}: scan '{header.name}': {height} rows x {width} columns",
             error=ScanError,
         )
         self.shape = (height, width)
-        self._flat = (rows - first_row).astype(np.int64) * width + (columns - first_column).astype(np.int64)
+        self.cells = (rows - first_row).astype(np.int64) * width + (columns - first_column).astype(np.int64)
+        """(N,) pixel of every point, row by row."""
         self._points = self._pixels = None
 
-    def place(self, valid):
-        """Give every pixel its point: of several the first of the file that is a return.
+    def place(self, valid, returns, points, strength, wanted, warn):
+        """Give every pixel its point.
 
         Parameters
         ----------
         valid : (N,) bool
-
-        Returns
-        -------
-        int
-            How many returns were left out because an earlier one has their pixel.
+        returns : (N,) float64 or None
+            Number of each return of its pixel, as the file has it.
+        points : (N, 3) float64
+        strength : (N,) float64 or None
+        wanted : {"first", "strongest", "last"}
+            Which of several returns of a pixel to take. Without numbers the nearest is the first.
+        warn : callable
+            Takes what `Message` takes.
 
         Raises
         ------
         UnusableScan
-            If that is most of them.
+            If the numbers do not tell the points apart.
         """
-        returns = np.flatnonzero(valid)
-        self._pixels, first = np.unique(self._flat[returns], return_index=True)
-        self._points = returns[first]
-        doubled = returns.size - self._pixels.size
-        if doubled > 0.5 * returns.size:
+        there = np.flatnonzero(valid)
+        cells = self.cells[there]
+        if there.size == 0 or np.bincount(cells).max() == 1:
+            self._points, self._pixels = there, cells
+            return
+        distance = np.einsum("ij,ij->i", points[there], points[there])
+        number = distance if returns is None else returns[there]
+        if wanted == "strongest" and strength is not None:
+            number = -strength[there]
+        elif wanted == "last":
+            number = -number
+        order = np.lexsort((number, cells))
+        first = np.concatenate([[True], np.diff(cells[order]) != 0])
+        self._points, self._pixels = there[order[first]], cells[order[first]]
+        others = there.size - self._pixels.size
+        if returns is None and self._scattered(points, there[order], first):
             raise UnusableScan(
                 "{file}: scan '{scan}': rowIndex and columnIndex do not tell its points apart ({count:,} points, "
-                "{pixels:,} pixels); export it as PTX or as a structured (gridded) E57",
-                count=returns.size,
+                "{pixels:,} pixels); export it as PTX or as a structured (gridded) E57, or let a grid be laid over its "
+                "points: --grid angle, or Grid by Angle in the import dialog",
+                count=there.size,
                 pixels=self._pixels.size,
                 **self._place,
             )
-        return doubled
+        warn(
+            "{pixels:,} pixels have several returns; the {wanted} was taken, {count:,} others were left out",
+            pixels=int(np.count_nonzero(np.diff(np.append(np.flatnonzero(first), len(first))) > 1)),
+            wanted=wanted,
+            count=others,
+        )
+
+    @staticmethod
+    def _scattered(points, order, first):
+        """Whether the points of one pixel lie in different directions; ``order`` lists them pixel by pixel."""
+        with np.errstate(all="ignore"):
+            directions = points[order] / np.sqrt(np.einsum("ij,ij->i", points[order], points[order]))[:, None]
+            cosine = np.einsum("ij,ij->i", directions, directions[np.flatnonzero(first)[np.cumsum(first) - 1]])
+        cosine = cosine[~first & np.isfinite(cosine)]
+        return cosine.size > 0 and np.median(cosine) < np.cos(np.radians(_ONE_DIRECTION_DEG))
 
     def spread(self, values, dtype=None):
         """(H, W, ...) grid of (N, ...) values of the points; zeros in pixels without a return."""
@@ -118,26 +150,3 @@ class IndexGrid:
         if stated and high - low < _MOST_MARGIN * (last - first + 1):
             first, last = math.ceil(low), math.floor(high)
         return first, last - first + 1
-
-
-def in_8_bits(values, low, high):
-    """Colors brought to 0..255 by the limits of their file.
-
-    Parameters
-    ----------
-    values : (N,) float64
-        One channel.
-    low, high : float or None
-        What the file states. Limits within 0..255 that go beyond its half say that it counts in 8 bits, whether they
-        are the ends of the scale or the least and greatest that occur. Without limits it counts in 8 or 16 bits.
-
-    Returns
-    -------
-    (N,) uint8
-    """
-    values = np.nan_to_num(values, nan=0.0)
-    if low is None or high is None or not 0 < high - low <= 2**32:
-        low, high = 0, 255 if values.max(initial=0) <= 255 else 65535
-    elif low >= 0 and 128 <= high <= 255:
-        low, high = 0, 255
-    return np.round(np.clip((values - low) * (255 / (high - low)), 0, 255)).astype(np.uint8)

@@ -7,27 +7,44 @@ import numpy as np
 from ...errors import Cancelled, ScanError
 from ...messages import Message
 from ...scan.limits import FARTHEST_M, NEAREST_M, STRONGEST
-from ...scan.orientation import AS_STORED, infer_turn
 from ...scan.scan import Scan
+from .options import AS_IT_IS
+from .reflectance import told_apart
+from .settle import NO_GRID, NoGrid, Settled
 
 BYTES_PER_PIXEL = 120
 """What reading takes at its worst moment: the stored arrays, their upright copies and a mask or two."""
 
-_FARTHEST_RETURN_M = 20_000.0
-"""No terrestrial scanner measures farther; points beyond are geo-referenced."""
-
 _MOST_TOLD = 5
 """So many of the scans that are left out are told one by one."""
-
-_GRAY_SHARE = 0.999
-"""Share of equal channels that makes a color image a gray one; a stray pixel is no color."""
 
 
 class UnusableScan(ScanError):
     """One scan of a file cannot be used; others of the file may."""
 
 
-def finish_scan(name, source, *, points, reflectance, valid, color, pose, warnings):
+def finish_scan(
+    name, source, *, points, reflectance, valid, color, pose, warnings, places=None, origin=None, options=AS_IT_IS
+):
+    """Clean the grids that a file holds, turn them upright and make a Scan of them; see `finish_grid`."""
+    return finish_grid(
+        name,
+        source,
+        points=points,
+        reflectance=reflectance,
+        valid=valid,
+        color=color,
+        pose=pose,
+        warnings=warnings,
+        places=places,
+        origin=origin,
+        options=options,
+    )[0]
+
+
+def finish_grid(
+    name, source, *, points, reflectance, valid, color, pose, warnings, places=None, origin=None, options=AS_IT_IS
+):
     """Clean the grids that a file holds, turn them upright and make a Scan of them.
 
     Parameters
@@ -35,23 +52,31 @@ def finish_scan(name, source, *, points, reflectance, valid, color, pose, warnin
     name : str
     source : Path
     points : (H, W, 3) float64
-        In the scanner's frame; exact zeros and numbers that are not finite are no returns.
+        In the scanner's frame, or another that the file counts in; exact zeros and numbers that are not finite are no
+        returns. It may be changed.
     reflectance : (H, W) float32 or None
-        None where the file has none: a gray color image then takes its place.
+        None where the file has none.
     valid : (H, W) bool
     color : (H, W, 3) uint8 or None
     pose : (4, 4) float64
     warnings : list of str
         What was noticed so far.
+    places : dict of str to (3,) float64, optional
+        Where the scanner may have stood, in the frame of the points; see `Settled`.
+    origin : (3,) float64, optional
+        Where it did stand, if that is known.
+    options : ReadOptions
 
     Returns
     -------
     Scan
+    GridOrder
+        The way from the stored grid to the scan's.
 
     Raises
     ------
-    ScanError
-        If no pixel has a return, or nothing in the file can serve as reflectance.
+    UnusableScan
+        If no pixel has a return, or the points lie on no grid.
     """
     warnings = list(warnings)
 
@@ -59,7 +84,7 @@ def finish_scan(name, source, *, points, reflectance, valid, color, pose, warnin
         warnings.append(Message("scan '{scan}': " + template, scan=name, **values))
 
     measured = valid & (points != 0).any(axis=-1)
-    reflectance, color = _told_apart(reflectance, color, measured, name, warn, source)
+    reflectance, color = told_apart(reflectance, color, measured, warn)
     usable = measured & (np.abs(points) < FARTHEST_M).all(axis=-1) & (np.abs(reflectance) < STRONGEST)
     # A square of such a coordinate is no number any more, so that its range would be none.
     usable &= (np.abs(points) > NEAREST_M).any(axis=-1)
@@ -73,61 +98,25 @@ def finish_scan(name, source, *, points, reflectance, valid, color, pose, warnin
         raise UnusableScan(
             "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
         )
-
-    nearest = _nearest(points, usable)
-    if nearest > _FARTHEST_RETURN_M:
-        warn(
-            "every point is more than {distance:,.0f} km from the scanner's origin: the file holds world coordinates, "
-            "so ranges and orientation mean little; rows and columns stay as stored",
-            distance=nearest / 1000,
+    try:
+        settled = Settled(np.where(usable[..., None], points, 0.0), usable, pose, places or {}, origin, options, warn)
+    except NoGrid:
+        raise UnusableScan("{file}: scan '{scan}' " + NO_GRID, file=source.name, scan=name) from None
+    if not settled.valid.any():
+        raise UnusableScan(
+            "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
         )
-        turn = AS_STORED
-    else:
-        turn = infer_turn(points, usable)
-        if not turn.certain:
-            warn("its points do not show which way is up; flip it if it looks wrong")
-    return Scan(
+    scan = Scan(
         name=name,
-        points=turn.of(points),
-        reflectance=turn.of(np.where(usable, reflectance, np.float32(0))),
-        valid=turn.of(usable),
-        color=turn.of(color),
-        pose=pose,
+        points=settled.points,
+        reflectance=np.where(settled.valid, settled.order.of(reflectance), np.float32(0)),
+        valid=settled.valid,
+        color=settled.order.of(color),
+        pose=settled.pose,
         source=source,
         warnings=tuple(warnings),
     )
-
-
-def _nearest(points, usable):
-    """Least distance from the scanner, metres."""
-    chosen = points[usable]
-    return np.sqrt(np.einsum("ij,ij->i", chosen, chosen).min())
-
-
-def gray_is_no_color(color, valid):
-    """True where red, green and blue are the same: an intensity stored as a color, or nothing stored at all."""
-    seen = color[valid]
-    equal = (seen[:, 0] == seen[:, 1]) & (seen[:, 0] == seen[:, 2])
-    return np.count_nonzero(equal) >= _GRAY_SHARE * len(seen)
-
-
-def _told_apart(reflectance, color, valid, name, warn, source):
-    """Some files store the intensity as three equal colors: it is no color, and may be the only intensity there is."""
-    if color is not None and gray_is_no_color(color, valid):
-        gray, color = color[..., 0], None
-        if gray[valid].any():
-            if reflectance is None or (np.ptp(reflectance[valid]) == 0 and np.ptp(gray[valid]) > 0):
-                warn("no intensity but gray colors; they are taken as the intensity")
-                reflectance = gray.astype(np.float32)
-            else:
-                warn("its colors are gray (red = green = blue); taken as a scan without color")
-    if reflectance is None:
-        raise UnusableScan(
-            "{file}: scan '{scan}' has no intensity, which is what is colorized; export it with intensity",
-            file=source.name,
-            scan=name,
-        )
-    return reflectance, color
+    return scan, settled.order
 
 
 def finish_scans(stored, source, *, cancelled=None):

@@ -11,14 +11,17 @@ from ..gate import beside
 from ..images import read_image, read_measured
 from ..json_files import parse_json
 from ..memory import require_memory
-from .grid import BYTES_PER_PIXEL, gray_is_no_color
+from .formats import Format
+from .grid import BYTES_PER_PIXEL
+from .options import AS_IT_IS
+from .reflectance import gray_is_no_color
 from .scan_json import EXPECTED, LARGEST_FILE, check_description
 
 _NOTHING_HIT_M = 1e6
 """Renderers write 1e10, or the largest number there is, where a ray meets nothing."""
 
 
-def read_image_pair(file, path, *, outside=False, progress=None, cancelled=None):
+def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
     """Read the scan that a `.scan.json` describes.
 
     No return is where the range is 0, not finite, beyond all reason, or transparent where the image has an alpha
@@ -99,7 +102,9 @@ def read_image_pair(file, path, *, outside=False, progress=None, cancelled=None)
         warnings=tuple(warnings),
     )
     vertical, horizontal = description.model.mirrored
-    return [flipped(scan, vertical=vertical, horizontal=horizontal)]
+    upright = flipped(scan, vertical=vertical, horizontal=horizontal)
+    flips = {"vertical": options.flip_vertical, "horizontal": options.flip_horizontal}
+    return [flipped(upright, turn_deg=options.turn_deg, **flips)]
 
 
 class _Images:
@@ -136,3 +141,12 @@ def _require_same_size(path, key, image, shape, expected):
             expected_rows=expected[0],
             expected_columns=expected[1],
         )
+
+
+FORMAT = Format(
+    name="image pair",
+    suffixes=(".scan.json",),
+    read=read_image_pair,
+    sniff=lambda start: start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{"),
+    about="a range and a reflectance image (PNG, TIFF, EXR) and what describes their sensor",
+)

@@ -7,6 +7,7 @@ import numpy as np
 from ...messages import Message
 from ...scan.limits import FARTHEST_M
 from ...scan.scan import is_plausible
+from ...scan.units import scale_of_pose
 
 _TOLERANCE = 1e-3
 """How far from a rotation the digits that a file prints may be."""
@@ -69,7 +70,8 @@ def ptx_pose(position, axes, matrix, scan):
         return np.eye(4) if stated is None else stated, [told]
     # The digits that are printed for 0 0 0 1 are no part of the motion.
     pose = np.vstack([pose[:3], [0.0, 0.0, 0.0, 1.0]])
-    if not is_rotation(pose[:3, :3]):
+    # One that scales evenly counts another unit, which is for `Settled` to say.
+    if not is_rotation(pose[:3, :3] / scale_of_pose(pose)):
         return pose, [Message(_SCAN + "its matrix scales, shears or mirrors; it is used as it is", scan=scan)]
     if stated is None:
         return pose, [Message(_SCAN + "its scanner axes are no rotation; the matrix is used", scan=scan)]
@@ -83,7 +85,7 @@ def ptx_pose(position, axes, matrix, scan):
                 other=_numbers(matrix[3, :3]),
             )
         ]
-    if np.abs(stated[:3, :3] - pose[:3, :3]).max() > 10 * _TOLERANCE:
+    if np.abs(stated[:3, :3] - pose[:3, :3] / scale_of_pose(pose)).max() > 10 * _TOLERANCE:
         return pose, [Message(_SCAN + "its scanner axes are not those of the matrix; the matrix is used", scan=scan)]
     return pose, []
 

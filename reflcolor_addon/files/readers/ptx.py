@@ -6,8 +6,13 @@ import numpy as np
 
 from ...errors import ScanError
 from ...messages import Message, one_line
+from ...scan.coherence import line_length
+from ...scan.limits import MOST_PIXELS
 from ..memory import require_memory
+from .colors import scaled_colors
+from .formats import Format
 from .grid import BYTES_PER_PIXEL, finish_scans
+from .options import AS_IT_IS
 from .poses import ptx_pose
 from .text_lines import TextLines
 
@@ -17,111 +22,194 @@ _WIDTHS = (4, 7, 10)
 
 _LONGEST_QUOTE = 40
 _COUNT = re.compile(r"\d{1,18}(\.0*)?")
+_NO_NUMBER = re.compile(r"[-+]?(?:nan\([^)\s]*\)|\d\.#[A-Za-z]+\d*)", re.IGNORECASE)
+"""What Windows programs print for what is no number: -nan(ind), 1.#QNAN."""
+
+_END_MARKS = "\x1a\x00 \t"
 
 
-def read_ptx(file, path, *, outside=False, progress=None, cancelled=None):
+def read_ptx(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
     """Read every scan of a PTX file.
 
     A scan is: columns, rows; the scanner's position and its three axes (4 lines of 3); a 4 x 4 matrix in row-vector
     convention; then columns x rows lines ``x y z intensity [red green blue]`` in the scanner's own frame, column by
-    column. ``0 0 0`` is no return. CRLF, tabs, blank lines and a byte order mark are fine.
+    column. ``0 0 0`` is no return, and so is what is no number. CRLF, tabs, blank lines, a byte order mark and what
+    old programs put at the end of a file are fine. Of a file that is cut short what is whole is kept.
 
     Parameters
     ----------
     file : binary file
     path : Path
         Its name, for messages.
+    options : ReadOptions
     progress, cancelled : callable, optional
 
     Errors are those of `read_scans`.
     """
     stored = []
     lines = TextLines(file, path, progress=progress, cancelled=cancelled)
-    while (line := lines.next_line()) is not None:
+    rest = None
+    while rest is None and (line := lines.next_line()) is not None:
         lines.check_cancelled()
-        stored.append(_read_scan(lines, line, after=bool(stored)))
+        if not line.strip(_END_MARKS):
+            continue
+        if stored and not _COUNT.fullmatch(line):
+            rest = Message(
+                "line {line}: what follows its last scan is none, and was left out: '{found}'",
+                line=lines.number,
+                found=_shortened(line),
+            )
+            break
+        try:
+            stored.append(_read_scan(lines, line, after=bool(stored), options=options))
+        except _CutShort as cut:
+            if not stored:
+                raise cut.error from None
+            rest = Message("its scan {number} was left out: {reason}", number=len(stored) + 1, reason=cut.error.message)
     if not stored:
         raise ScanError("{file}: holds no text, expected the header of a PTX scan", file=path.name)
     for index, scan in enumerate(stored):
         scan["name"] = path.stem if len(stored) == 1 else f"{path.stem} {index + 1}"
-        scan["pose"], notes = ptx_pose(*scan.pop("placed"), scan["name"])
+        position, axes, matrix = scan.pop("placed")
+        scan["pose"], notes = ptx_pose(position, axes, matrix, scan["name"])
+        scan["places"] = {
+            name: place for name, place in (("matrix", matrix[3, :3]), ("position", position)) if place.any()
+        }
+        if np.array_equal(matrix[3, :3], position):
+            scan["places"].pop("position", None)
+        scan["options"] = options
         scan["warnings"] = notes + [
             Message("scan '{scan}': {note}", scan=scan["name"], note=note) for note in scan["warnings"]
         ]
+    if rest is not None:
+        stored[-1]["warnings"].append(Message("scan '{scan}': {note}", scan=stored[-1]["name"], note=rest))
     return finish_scans(stored, path, cancelled=cancelled)
 
 
-def _read_scan(lines, first, *, after):
-    columns = _count(lines, first, "columns", after)
-    header = lines.number
-    rows = _count(lines, _header_line(lines, "the number of rows"), "rows", False)
-    position = _numbers(lines, 3, "the scanner's position")
-    axes = np.array([_numbers(lines, 3, "a scanner axis") for _ in range(3)])
-    matrix = np.array([_numbers(lines, 4, "a row of the matrix") for _ in range(4)])
+class _CutShort(Exception):
+    """A scan ends before it is whole."""
 
+    def __init__(self, error):
+        self.error = error
+        super().__init__(str(error))
+
+
+def _read_scan(lines, first, *, after, options):
+    try:
+        columns = _count(lines, first, "columns", after)
+        header = lines.number
+        rows = _count(lines, _header_line(lines, "the number of rows"), "rows", False)
+        position = _numbers(lines, 3, "the scanner's position")
+        axes = np.array([_numbers(lines, 3, "a scanner axis") for _ in range(3)])
+        matrix = np.array([_numbers(lines, 4, "a row of the matrix") for _ in range(4)])
+    except ScanError as error:
+        if lines.at_end():
+            raise _CutShort(error) from None
+        raise
     count, left = columns * rows, lines.bytes_left()
-    if count * _SHORTEST_LINE > left + 1:
-        raise lines.error(
+    room = (left + 1) // _SHORTEST_LINE
+    short = count > room and (after or count > MOST_PIXELS or room < 2 * rows)
+    if short:
+        error = lines.error(
             "{columns} columns x {rows} rows announced, but the rest of the file ({left} bytes) has room for at most "
             "{most} points; it is cut short, or its header is wrong",
             number=header,
             columns=columns,
             rows=rows,
             left=left,
-            most=(left + 1) // _SHORTEST_LINE,
+            most=room,
         )
+        raise _CutShort(error)
+    count = min(count, room)
     require_memory(count * BYTES_PER_PIXEL, f"{lines.path.name}: {columns} columns x {rows} rows", error=ScanError)
-    body = _Body(lines, columns, rows)
-    body.read()
+    body = _Body(lines, count)
+    found = body.read()
+    notes = body.notes()
+    if found < columns * rows:
+        error = lines.error(
+            "the file ends after {at} of {count} points ({columns} columns x {rows} rows); it is cut short",
+            at=found,
+            count=columns * rows,
+            columns=columns,
+            rows=rows,
+        )
+        # Of the only scan there is, what is whole is better than nothing.
+        if after or found < 2 * rows:
+            raise _CutShort(error)
+        notes.append(Message("{reason}; what is whole of it was read", reason=error.message))
+    return {**_in_lines(body, found, columns, rows, notes), "placed": (position, axes, matrix), "warnings": notes}
+
+
+def _in_lines(body, found, columns, rows, notes):
+    """The body as grids: one line of the file after the other is a column, unless its points tell otherwise."""
+    points, there = body.points[:found], (body.points[:found] != 0).any(axis=-1)
+    length = rows if rows == columns else line_length(points, there, (rows, columns))
+    if length != rows:
+        notes.append(
+            Message(
+                "its points follow each other in lines of {length}, not of {rows} as its header says; read so",
+                length=length,
+                rows=rows,
+            )
+        )
+    lines = found // length
+
+    def grid(values):
+        return (
+            None
+            if values is None
+            else values[: lines * length].reshape(lines, length, *values.shape[1:]).swapaxes(0, 1)
+        )
+
     return {
-        "points": body.points.reshape(columns, rows, 3).transpose(1, 0, 2),
-        "reflectance": body.intensity.reshape(columns, rows).T,
-        "valid": np.ones((rows, columns), bool),
-        "color": None if body.color is None else body.color.reshape(columns, rows, 3).transpose(1, 0, 2),
-        "placed": (position, axes, matrix),
-        "warnings": body.notes(),
+        "points": grid(body.points),
+        "reflectance": grid(body.intensity),
+        "valid": np.ones((length, lines), bool),
+        "color": grid(body.color_in_8_bits(notes)),
     }
 
 
 class _Body:
     """The lines of points of one scan, in the order of the file."""
 
-    def __init__(self, lines, columns, rows):
-        self._lines, self._grid = lines, (columns, rows)
-        self.points = np.empty((columns * rows, 3))
-        self.intensity = np.empty(columns * rows, np.float32)
-        self.color = None
+    def __init__(self, lines, count):
+        self._lines = lines
+        self.points = np.zeros((count, 3))
+        self.intensity = np.zeros(count, np.float32)
+        self._color = None
         self._no_color, self._colorless = False, 0
 
     def read(self):
+        """Read as many points as were announced, or as there are; return how many."""
         count, at = len(self.points), 0
         while at < count:
             first = self._lines.number + 1
             chunk = self._lines.take(count - at)
             if not chunk:
-                columns, rows = self._grid
-                raise self._lines.error(
-                    "the file ends after {at} of {count} points ({columns} columns x {rows} rows); it is cut short",
-                    at=at,
-                    count=count,
-                    columns=columns,
-                    rows=rows,
-                )
+                break
             if any(line and not line.isspace() for line in chunk):
                 values = self._parsed(chunk, first)
                 self._keep(values, at)
                 at += len(values)
+        return at
 
     def notes(self):
         """What is to be said about this body."""
         notes = []
-        if self._no_color:
-            notes.append(Message("its values 5 to 7 are not whole numbers 0..255; taken as a scan without color"))
-        elif self.color is not None and self._colorless:
+        if self._color is not None and self._colorless:
             notes.append(
                 Message("{count:,} points have no color among others that have; they are black", count=self._colorless)
             )
         return notes
+
+    def color_in_8_bits(self, notes):
+        """(N, 3) uint8 of the colors, None where there are none; what is to be said of them is added to the notes."""
+        if self._color is None:
+            return None
+        # Eight bits as they are, unless they are all zeros and ones.
+        if self._color.dtype == np.uint8 and self._color.max() > 1:
+            return self._color
+        return scaled_colors(self._color, None, lambda template, **values: notes.append(Message(template, **values)))
 
     def _keep(self, values, at):
         here = slice(at, at + len(values))
@@ -132,18 +220,20 @@ class _Body:
         color = values[:, 4:7] if colored else np.full((len(values), 3), np.nan)
         given = ~np.isnan(color).all(axis=-1)
         self._colorless += np.count_nonzero((values[~given, :3] != 0).any(axis=-1))
-        if self._no_color or not given.any():
+        if not given.any():
             return
         color = color[given]
-        if not ((color >= 0) & (color <= 255) & (color == np.round(color))).all():
-            self.color, self._no_color = None, True
-            return
-        if self.color is None:
-            self.color = np.zeros((len(self.points), 3), np.uint8)
-        self.color[here][given] = color
+        if self._color is None:
+            self._color = np.zeros((len(self.points), 3), np.uint8)
+        if self._color.dtype == np.uint8 and not ((color >= 0) & (color <= 255) & (color == np.round(color))).all():
+            self._color = self._color.astype(np.float32)
+        with np.errstate(over="ignore", invalid="ignore"):
+            self._color[here][given] = color
 
     def _parsed(self, chunk, first):
         """(n, 4, 7 or 10) float64 of the lines that are not blank; NaN for colors that a line does not have."""
+        if any("#" in line or "(" in line for line in chunk):
+            chunk = [_NO_NUMBER.sub("nan", line) for line in chunk]
         try:
             values = np.loadtxt(chunk, np.float64, comments=None, ndmin=2)
         except ValueError:
@@ -154,13 +244,20 @@ class _Body:
         """Slower: for lines that differ in length, and to find the one that is wrong."""
         parsed = []
         for number, line in enumerate(chunk, first):
-            words = line.split()
-            if words and len(words) not in _WIDTHS:
-                raise self._lines.error("expected 4 or 7 values, found {found}", number=number, found=_found(words))
-            if words:
+            words = line.strip(_END_MARKS).split()
+            if not words:
+                continue
+            try:
+                if len(words) not in _WIDTHS:
+                    raise self._lines.error("expected 4 or 7 values, found {found}", number=number, found=_found(words))
                 values = [_number(self._lines, word, number) for word in words]
-                parsed.append(values + [np.nan] * (max(_WIDTHS) - len(values)))
-        return np.array(parsed, np.float64)
+            except ScanError:
+                # The last line of all was cut, not written wrongly.
+                if number == self._lines.number and self._lines.at_end():
+                    break
+                raise
+            parsed.append(values + [np.nan] * (max(_WIDTHS) - len(values)))
+        return np.array(parsed, np.float64).reshape(-1, max(_WIDTHS))
 
 
 def _header_line(lines, what):
@@ -205,3 +302,17 @@ def _found(words):
 
 def _shortened(text):
     return one_line(text, _LONGEST_QUOTE)
+
+
+def _is_ptx(start):
+    text = start.removeprefix(b"\xef\xbb\xbf").split()
+    return len(text) > 2 and text[0].isdigit() and text[1].isdigit() and len(start.splitlines()[0].split()) == 1
+
+
+FORMAT = Format(
+    name="PTX",
+    suffixes=(".ptx",),
+    read=read_ptx,
+    sniff=_is_ptx,
+    about="one or several scans, in any order of rows and columns",
+)

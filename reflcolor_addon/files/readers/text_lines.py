@@ -48,6 +48,10 @@ class TextLines:
         """How many bytes of text have not been handed out yet; at most, for line ends may take two."""
         return self.size - self._file.tell() + len(self._rest) + self._waiting
 
+    def at_end(self):
+        """Whether no line is left."""
+        return not self._filled()
+
     def check_cancelled(self):
         """Raise Cancelled if the reading is to stop; asked for every block, so only for what may have many of them."""
         if self._cancelled and self._cancelled():

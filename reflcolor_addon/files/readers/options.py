@@ -1,0 +1,76 @@
+"""How a scan file is to be read, where a person knows better than the file tells."""
+
+from dataclasses import asdict, dataclass, fields
+
+from ...errors import UsageError
+
+UNITS = {"m": 1.0, "mm": 0.001, "cm": 0.01, "ft": 0.3048, "in": 0.0254}
+"""Metres in each."""
+
+AUTO = "auto"
+TURNS = (0, 90, 180, 270)
+RETURNS = ("first", "strongest", "last")
+STORED, ANGLE = "stored", "angle"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReadOptions:
+    """How to read a scan file.
+
+    Parameters
+    ----------
+    turn_deg : {0, 90, 180, 270}
+        Turn the image clockwise, after it was brought upright as far as its points tell.
+    flip_vertical, flip_horizontal : bool
+        Turn the order of its rows, of its columns, after that.
+    unit : str
+        What the coordinates count: "m", "mm", "cm", "ft", "in"; "auto" is metres unless the points tell otherwise.
+    step : int
+        Keep every row and column whose number is a multiple of it.
+    returns : {"first", "strongest", "last"}
+        Which of several returns of a pixel to take.
+    grid : {"stored", "angle"}
+        The file's own grid, or one that is laid over its points by the angles at which the scanner saw them.
+    position : (x, y, z) of float, optional
+        Where the scanner stood, in the file's coordinates and unit; None: as the file says, or as is found.
+
+    Raises
+    ------
+    UsageError
+        If a value is none of these.
+    """
+
+    turn_deg: int = 0
+    flip_vertical: bool = False
+    flip_horizontal: bool = False
+    unit: str = AUTO
+    step: int = 1
+    returns: str = "first"
+    grid: str = STORED
+    position: tuple[float, float, float] | None = None
+
+    def __post_init__(self):
+        for name, choices in {
+            "turn_deg": TURNS,
+            "unit": (AUTO, *UNITS),
+            "returns": RETURNS,
+            "grid": (STORED, ANGLE),
+        }.items():
+            if getattr(self, name) not in choices:
+                raise UsageError(
+                    "{name}: expected one of {choices}, found {found}",
+                    name=name,
+                    choices=", ".join(map(str, choices)),
+                    found=str(getattr(self, name)),
+                )
+        if self.step < 1:
+            raise UsageError("step: expected a whole number of at least 1, found {found}", found=self.step)
+
+    def as_dict(self):
+        """Return what is not as it would be anyway, ready for JSON."""
+        return {
+            field.name: asdict(self)[field.name] for field in fields(self) if getattr(self, field.name) != field.default
+        }
+
+
+AS_IT_IS = ReadOptions()

@@ -1,0 +1,252 @@
+"""From stored points to a scanner's grid: where it stood, what the numbers count, which way is up, if it is one at all.
+
+Nothing of this is believed from a header alone; the points show it.
+"""
+
+import numpy as np
+
+from ...messages import Message
+from ...scan.coherence import is_unordered
+from ...scan.grid_health import coarser, compacted
+from ...scan.orientation import AS_STORED, Z_UP, frame_with_up, infer_turn, up_of_camera
+from ...scan.origin import better_origin, repeated_point
+from ...scan.units import MILLIMETRE, counts_millimetres, scale_of_pose
+from .grid_order import GridOrder
+from .options import AUTO, UNITS
+
+_FARTHEST_RETURN_M = 20_000.0
+"""No terrestrial scanner measures farther; points beyond are geo-referenced."""
+
+_SAMPLE = 1 << 17
+_NEARLY_UP = 0.7
+
+
+_WAY_OUT = (
+    "Export it with rows and columns (structured E57, PTX), or let a grid be laid over its points: --grid angle, or "
+    "Grid by Angle in the import dialog"
+)
+NO_GRID = f"has no grid: points that are neighbors by their numbers are none in space. {_WAY_OUT}"
+NO_ROWS = f"has no grid: its points have neither rows nor columns. {_WAY_OUT}"
+
+
+class NoGrid(Exception):
+    """The points of a scan lie on no grid."""
+
+
+class Settled:
+    """A scan's points in the scanner's frame, Z up, in metres, on a whole and upright grid.
+
+    Parameters
+    ----------
+    points : (H, W, 3) float64
+        As stored; changed in place.
+    valid : (H, W) bool
+        Where there is a return that can be used; changed in place.
+    pose : (4, 4) float64
+        Stored points to world.
+    places : dict of str to (3,) float64
+        Where the scanner may have stood, in the frame of the points: ``"position"`` of a header, ``"matrix"``.
+    origin : (3,) float64 or None
+        Where it did stand, if that is known; what the person says goes before.
+    options : ReadOptions
+    warn : callable
+        Takes what `Message` takes.
+
+    Attributes
+    ----------
+    points, valid, pose
+        What has come of them, points and mask on the new grid.
+    order : GridOrder
+        For all other arrays.
+
+    Raises
+    ------
+    NoGrid
+        If the points lie on no grid.
+    """
+
+    def __init__(self, points, valid, pose, places, origin, options, warn):
+        self.points, self.valid, self.pose = points, valid, pose
+        self._places = {name: np.asarray(place, np.float64) for name, place in places.items()}
+        self._origin, self._options, self._warn = origin, options, warn
+        if options.position is not None:
+            self._origin = np.array(options.position, np.float64)
+        self.order = GridOrder(valid.shape)
+        self._leave_out_repeated()
+        self._scale()
+        self._make_whole()
+        self._find_scanner()
+        self._turn_upright()
+        self._by_hand()
+
+    def _leave_out_repeated(self):
+        """Some programs write the scanner's own place, or any other, where there is no return."""
+        place = repeated_point(self._sample())
+        if place is None:
+            return
+        repeated = self.valid & (self.points == place).all(axis=-1)
+        self.valid &= ~repeated
+        self._places.setdefault("repeated", place)
+        self._warn(
+            "{count:,} pixels repeat one and the same point, {place}, and were taken as no return",
+            count=np.count_nonzero(repeated),
+            place=numbers(place),
+        )
+
+    def _scale(self):
+        """Bring the points, and with them the pose, to metres."""
+        scale = scale_of_pose(self.pose)
+        if scale != 1.0:
+            self._warn("its matrix scales by {scale:g}: its points are {scale:g} times as far away", scale=scale)
+            self.points *= scale
+            self.pose = self.pose.copy()
+            self.pose[:3, :3] /= scale
+            self._places = {name: place * scale for name, place in self._places.items()}
+            self._origin = None if self._origin is None else self._origin * scale
+        if self._options.unit != AUTO:
+            self._count(UNITS[self._options.unit])
+
+    def _count(self, metres):
+        if metres != 1.0:
+            self.points *= metres
+            self.pose = self.pose.copy()
+            self.pose[:3, 3] *= metres
+            self._places = {name: place * metres for name, place in self._places.items()}
+            self._origin = None if self._origin is None else self._origin * metres
+
+    def _make_whole(self):
+        """Close up numbers that skip, make a thinned grid coarser, and see that it is a grid at all."""
+        if cells := compacted(self.valid):
+            self._regrid(cells)
+            self._warn(
+                "its numbers count every {rows} rows and {columns} columns; they were closed up",
+                rows=cells.stride[0],
+                columns=cells.stride[1],
+            )
+        if is_unordered(self.points, self.valid):
+            raise NoGrid
+        before = np.count_nonzero(self.valid)
+        try:
+            cells = coarser(self.valid)
+        except ValueError:
+            raise NoGrid from None
+        if cells:
+            self._regrid(cells)
+            self._warn(
+                "was thinned out: {share:.0%} of its pixels hold a point; {stride} x {stride} of them were made one, "
+                "and {lost:,} points left out",
+                share=before / (self.order.shape[0] * self.order.shape[1] * cells.stride[0] ** 2),
+                stride=cells.stride[0],
+                lost=before - np.count_nonzero(self.valid),
+            )
+
+    def _regrid(self, cells):
+        step = GridOrder(self.valid.shape)
+        step.closed_up(cells, self.valid)
+        self.order.closed_up(cells, self.valid)
+        self.points, self.valid = step.of(self.points), step.of(self.valid)
+
+    def _find_scanner(self):
+        """Measure the points from the scanner, with Z up or the camera's up."""
+        if self._origin is not None:
+            self._move(self._origin)
+            self._camera = up_of_camera(self.points, self.valid)
+        else:
+            self._camera = up_of_camera(self.points, self.valid)
+            if self._camera is None:
+                self._find_place()
+        if self._options.unit == AUTO and counts_millimetres(self._sample(), camera=self._camera is not None):
+            self._count(MILLIMETRE)
+            self._warn("its coordinates count millimetres; they were brought to metres")
+
+    def _find_place(self):
+        found = better_origin(self.points, self.valid, self._places)
+        if found is None:
+            return
+        kind, origin = found
+        if kind == "matrix":
+            # The points are where the pose would bring them: it is taken back from them.
+            inverse = np.linalg.inv(self.pose[:3, :3])
+            self.points[:] = (self.points - self.pose[:3, 3]) @ inverse.T
+            self._warn("its points are in world coordinates already; its pose is not applied to them again")
+            return
+        self._move(origin.place)
+        self._warn(
+            "its points are not measured from the scanner; they are from now on, from {place}, {source}",
+            place=numbers(origin.place),
+            source=_SOURCES[kind],
+        )
+
+    def _move(self, place):
+        self.points -= place
+        self.pose = self.pose.copy()
+        self.pose[:3, 3] += self.pose[:3, :3] @ place
+
+    def _turn_upright(self):
+        nearest = self._nearest()
+        if nearest > _FARTHEST_RETURN_M:
+            self._warn(
+                "every point is more than {distance:,.0f} km from the scanner's origin: the file holds world "
+                "coordinates, so ranges and orientation mean little; rows and columns stay as stored",
+                distance=nearest / 1000,
+            )
+            return
+        up = self._up()
+        frame = frame_with_up(up)
+        if not np.array_equal(frame, np.eye(3)):
+            self.points[:] = self.points @ frame.T
+            self.pose = self.pose.copy()
+            self.pose[:3, :3] = self.pose[:3, :3] @ frame.T
+        turn = infer_turn(self.points, self.valid)
+        if not turn.certain:
+            self._warn("its points do not show which way is up; turn or flip it if it looks wrong")
+        elif turn.transposed and self._camera is None and up is Z_UP:
+            self._warn("its rows and columns are swapped in the file; they were brought in order")
+        if turn[:3] != AS_STORED[:3]:
+            self.order.turned(turn)
+            self.points, self.valid = turn.of(self.points), turn.of(self.valid)
+
+    def _up(self):
+        """Up in the frame of the points: the world's by the pose; a camera's own where that says nothing."""
+        up = np.linalg.inv(self.pose[:3, :3]) @ Z_UP
+        up /= np.linalg.norm(up)
+        if self._camera is not None and abs(up[2]) > _NEARLY_UP:
+            # A camera that looks straight up or down by its pose: most likely it was given none.
+            return self._camera
+        if up[2] > _NEARLY_UP:
+            return Z_UP
+        if self._camera is None:
+            self._warn("its pose says that the scanner hung upside down or lay on its side; row 0 is what was up there")
+        return up
+
+    def _by_hand(self):
+        options = self._options
+        step = GridOrder(self.valid.shape)
+        for order in (step, self.order):
+            if options.turn_deg or options.flip_vertical or options.flip_horizontal:
+                order.by_hand(options.turn_deg, options.flip_vertical, options.flip_horizontal)
+            if options.step > 1:
+                order.every(options.step)
+        self.points, self.valid = step.of(self.points), step.of(self.valid)
+
+    def _sample(self):
+        """Some of the returns, as (N, 3)."""
+        there = np.flatnonzero(self.valid)
+        return self.points.reshape(-1, 3)[there[:: max(1, len(there) // _SAMPLE)]]
+
+    def _nearest(self):
+        """Least distance from the scanner, metres."""
+        chosen = self._sample()
+        return np.sqrt(np.einsum("ij,ij->i", chosen, chosen).min())
+
+
+_SOURCES = {
+    "position": Message("the position in its header"),
+    "repeated": Message("the point that its pixels without a return repeat"),
+    "fit": Message("from where its rows and columns are regular"),
+}
+
+
+def numbers(values):
+    """Return numbers as a text in brackets."""
+    return "(" + " ".join(f"{value:.10g}" for value in values) + ")"

@@ -1,0 +1,49 @@
+"""What the numbers of a file count, told by the numbers themselves."""
+
+import numpy as np
+
+MILLIMETRE = 0.001
+_CAMERA_REACH = 60.0
+"""No depth camera sees that far, in metres; what it measures in millimetres is always more."""
+
+_STEEP = -0.64
+"""Sine of an angle below which a standing scanner sees the floor that it stands on."""
+
+_HIGHEST = 150.0
+"""Metres that a scanner stands above what is straight below it, at most."""
+
+_FEWEST = 50
+
+
+def scale_of_pose(pose):
+    """Return the factor by which a pose scales evenly, as of files whose points count another unit; 1 for none.
+
+    Parameters
+    ----------
+    pose : (4, 4) float64
+    """
+    matrix = pose[:3, :3]
+    determinant = np.linalg.det(matrix)
+    if not determinant > 0:
+        return 1.0
+    # The digits beyond are those of the arithmetic.
+    scale = float(f"{np.cbrt(determinant):.9g}")
+    turn = matrix / scale
+    return scale if np.abs(turn @ turn.T - np.eye(3)).max() <= 1e-3 and abs(scale - 1) > 1e-3 else 1.0
+
+
+def counts_millimetres(points, *, camera):
+    """Return whether points count millimetres: a camera sees farther than any can, or the floor is far below a scanner.
+
+    Parameters
+    ----------
+    points : (N, 3) float64
+        Of the returns, from the scanner, Z up.
+    camera : bool
+        Whether it is a depth camera.
+    """
+    distance = np.sqrt(np.einsum("ij,ij->i", points, points))
+    if camera:
+        return bool(np.percentile(distance, 5) > _CAMERA_REACH)
+    steep = distance[points[:, 2] < _STEEP * distance]
+    return steep.size >= _FEWEST and bool(np.percentile(steep, 10) > _HIGHEST)
