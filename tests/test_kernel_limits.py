@@ -41,7 +41,9 @@ def test_null_pointers_are_refused_by_a_code(library):
     graph = native.CGraph(2, 2, 8, 0, 1.0, 0.0, None, None)
     assert library.rc_field(None, 1, None, None, None, None) == -1
     assert library.rc_field(graph, 1, None, None, None, None) == -1
-    assert library.rc_nearest(graph, 1, None, 1, None, None) == -1
+    assert library.rc_nearest_bounds(graph, 1, None, 1, 0, None, None, None) == -1
+    assert library.rc_nearest_part(graph, None, 1, None, None, 1, None, None, None) == -1
+    assert library.rc_nearest_merge(graph, 0, 1, None, 1, 1, None, None, None) == -1
     assert library.rc_graph_fill(2, 2, 0, None, 2, None, 2, None, 2, None, None, None) == -1
     assert library.rc_blend_add(2, 2, None, 2, 6.0, 0, 2, *[None] * 5, 4, None) == -1
     assert library.rc_blend_finish(4, None, 2, None, 4) == -1
@@ -65,7 +67,8 @@ def test_a_seed_count_that_is_no_count_is_refused_by_a_code(library):
     graph, plane, pixel = kernel.Graph(flat, flat, flat == 0), np.zeros(64, np.float32), np.zeros(1, np.int64)
     for count in (0, -1, 2**31, 2**62):
         assert library.rc_field(graph._c, count, pixel.ctypes.data, None, plane.ctypes.data, None) == -2
-        assert library.rc_nearest(graph._c, count, pixel.ctypes.data, 1, plane.ctypes.data, None) == -2
+        bounds = count, pixel.ctypes.data, 1, 0, None, plane.ctypes.data
+        assert library.rc_nearest_bounds(graph._c, *bounds, None) == -2
 
 
 @pytest.fixture(scope="module")

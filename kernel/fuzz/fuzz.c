@@ -78,12 +78,69 @@ static void plain_field(const rc_graph *g, int64_t source, float *distance)
     }
 }
 
+/* The lists of the k nearest seeds, found in so many parts. */
+static float *search_parts(const rc_graph *g, const float *bound, int64_t count, const int64_t *pixels, int32_t k,
+                           int32_t parts)
+{
+    const int64_t size = rc_plane_size(g->height, g->width), middle = below((uint32_t)g->height + 1);
+    void *labels[4];
+    uint8_t *listed[4];
+    int64_t *own = room((size_t)count * sizeof *own);
+    int32_t *seeds = room((size_t)count * sizeof *seeds);
+    for (int32_t n = 0; n < parts; n++) {
+        int64_t have = 0;
+        labels[n] = calloc((size_t)(size * 2 * k), sizeof(float));
+        listed[n] = calloc((size_t)size, 1);
+        expect(labels[n] && listed[n], "out of memory");
+        for (int64_t j = 0; j < count; j++) {
+            if (pixels[j] % parts == n) {
+                seeds[have] = (int32_t)j;
+                own[have++] = pixels[j];
+            }
+        }
+        if (have) {
+            expect(rc_nearest_part(g, bound, have, own, seeds, k, labels[n], listed[n], NULL) == RC_OK,
+                   "rc_nearest_part refuses a right call");
+        }
+    }
+    for (int half = 0; half < 2; half++) {
+        const int64_t row0 = half ? middle : 0, row1 = half ? g->height : middle;
+        expect(rc_nearest_merge(g, row0, row1, bound, k, parts, labels, (const uint8_t *const *)listed, NULL) == RC_OK,
+               "rc_nearest_merge refuses a right call");
+    }
+    for (int32_t n = 0; n < parts; n++) {
+        free(listed[n]);
+        free(n ? labels[n] : NULL);
+    }
+    free(own);
+    free(seeds);
+    return labels[0];
+}
+
+/* The same with bounds by shorter lists or without; the number of parts changes no bit. */
+static float *find_nearest(const rc_graph *g, int64_t count, const int64_t *pixels, int32_t k)
+{
+    const int64_t size = rc_plane_size(g->height, g->width);
+    const int32_t few = k > 1 && below(2) ? 1 + (int32_t)below((uint32_t)k - 1) : 0;
+    float *shorter = few ? find_nearest(g, count, pixels, few) : NULL, *bound = room((size_t)size * sizeof *bound);
+    expect(rc_nearest_bounds(g, count, pixels, k, few, shorter, bound, NULL) == RC_OK, "rc_nearest_bounds refuses");
+    float *lists = search_parts(g, bound, count, pixels, k, 1);
+    float *same = search_parts(g, bound, count, pixels, k, 2 + (int32_t)below(3));
+    for (int64_t p = 0; p < size; p++) {
+        expect(isnan(g->y[p]) || !memcmp(lists + p * 2 * k, same + p * 2 * k, (size_t)k * 2 * sizeof *lists),
+               "the number of parts changes a list");
+    }
+    free(bound);
+    free(shorter);
+    free(same);
+    return lists;
+}
+
 static void check_nearest(const rc_graph *g, int64_t count, const int64_t *pixels, const float *fields)
 {
-    const int64_t h = g->height, w = g->width, size = rc_plane_size(h, w);
+    const int64_t h = g->height, w = g->width;
     const int32_t k = 1 + (int32_t)below(below(4) ? 12 : 40);
-    float *labels = room((size_t)(size * 2 * k) * sizeof *labels);
-    expect(rc_nearest(g, count, pixels, k, labels, NULL) == RC_OK, "rc_nearest refuses a right call");
+    float *labels = find_nearest(g, count, pixels, k);
     for (int64_t i = 0; i < h * w; i++) {
         const int64_t p = (i / w + 1) * (w + 2) + i % w + 1;
         const float *list = labels + p * 2 * k;
@@ -108,6 +165,7 @@ static void check_nearest(const rc_graph *g, int64_t count, const int64_t *pixel
             for (int32_t m = 0; m < n; m++) {
                 expect(seeds[m] != seeds[n], "a seed is listed twice");
             }
+            expect(n == 0 || list[n - 1] < list[n] || seeds[n - 1] < seeds[n], "equals are not in the order of seeds");
         }
         note(list, (size_t)k * 2 * sizeof *list);
     }
@@ -252,7 +310,8 @@ static void one_round(void)
 
     const int64_t beyond = below(9), outside = below(2) ? -1 - beyond : h * w + beyond;
     expect(rc_field(&g, 1, &outside, NULL, plane, NULL) == RC_BAD_SEED, "a seed outside is taken");
-    expect(rc_nearest(&g, count, pixels, below(2) ? 0 : 2000, plane, NULL) == RC_BAD_VALUE, "a wrong k is taken");
+    expect(rc_nearest_bounds(&g, count, pixels, below(2) ? 0 : 2000, 0, NULL, plane, NULL) == RC_BAD_VALUE,
+           "a wrong k is taken");
     expect(rc_field(&g, 0, pixels, NULL, plane, NULL) == RC_BAD_SIZE, "no seeds are taken");
     g.beta = unusable[below(3)];
     expect(rc_field(&g, 1, pixels, NULL, plane, NULL) == RC_BAD_VALUE, "a wrong beta is taken");

@@ -159,9 +159,10 @@ int32_t rc_bounds_from_cells(rc_net *net, const rc_steps *steps, const rc_graph 
     return code;
 }
 
-int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph *graph, int32_t few, void *labels,
+int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph *graph, int32_t few, const void *lists,
                              int32_t k, float *bound, const rc_control *control)
 {
+    void *const labels = (void *)lists; /* they are only read */
     for (int32_t r = 1; r <= graph->height; r += RC_LINK_STRIDE) {
         if (rc_cancelled(control)) {
             return RC_CANCELLED;
@@ -170,7 +171,10 @@ int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph 
             const float *const d = rc_distances(labels, few, r * steps->stride + c);
             const int32_t *const id = rc_seeds(labels, few, r * steps->stride + c);
             const int32_t listed = isnan(steps->y[r * steps->stride + c]) ? 0 : few;
-            for (int32_t i = 1; i < listed && id[i] >= 0; i++) {
+            for (int32_t i = 0; i < listed && id[i] >= 0; i++) {
+                if (id[i] >= net->count) {
+                    return RC_BAD_SEED;
+                }
                 for (int32_t j = 0; j < i; j++) {
                     const int32_t a = net->node[id[i]], b = net->node[id[j]];
                     if (a != b && !rc_links_add(&net->links, a, b, d[i] + d[j])) {
@@ -191,6 +195,9 @@ int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph 
             const int32_t *const id = rc_seeds(labels, few, p);
             float least = INFINITY;
             for (int32_t i = 0; i < few && id[i] >= 0; i++) {
+                if (id[i] >= net->count) {
+                    return RC_BAD_SEED;
+                }
                 const float u = d[i] + net->reach[net->node[id[i]]];
                 least = u < least ? u : least;
             }

@@ -25,7 +25,7 @@ int32_t rc_bounds_from_cells(rc_net *net, const rc_steps *steps, const rc_graph 
                              const rc_control *control);
 
 /* The same, tighter, from lists of the few nearest seeds of every pixel. */
-int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph *graph, int32_t few, void *labels,
+int32_t rc_bounds_from_lists(rc_net *net, const rc_steps *steps, const rc_graph *graph, int32_t few, const void *lists,
                              int32_t k, float *bound, const rc_control *control);
 
 void rc_net_free(rc_net *net);

@@ -1,4 +1,4 @@
-/* The memory of rc_nearest's result: for every plane position k distances, then k seeds, side by side so that one visit
+/* The memory of lists of nearest seeds: for every plane position k distances, then k seeds, side by side so that one visit
  * to a pixel touches as little memory as can be. */
 #ifndef RC_LABELS_H
 #define RC_LABELS_H

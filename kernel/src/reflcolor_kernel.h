@@ -19,9 +19,10 @@
 #define RC_API __attribute__((visibility("default")))
 #endif
 
-#define RC_ABI_VERSION 4
+#define RC_ABI_VERSION 5
 #define RC_SLACK 8
 #define RC_MAX_NEAREST 1024
+#define RC_MAX_PARTS 64
 #define RC_FEATURES 8
 #define RC_MAX_CHANNELS 4
 
@@ -29,6 +30,7 @@ enum {
     RC_OK = 0,
     RC_CANCELLED = 1,
     RC_MEMORY = 2,
+    RC_SHORT = 3,        /* of rc_nearest_merge: a bound was too low */
     RC_BAD_POINTER = -1, /* a pointer that must not be null is null */
     RC_BAD_SIZE = -2,    /* a size is not positive, or too large for 32-bit pixel indices */
     RC_BAD_VALUE = -3,   /* a value is negative, not a number, infinite or out of its range */
@@ -48,7 +50,7 @@ typedef struct {
 } rc_graph;
 
 /* Both members may be null. `cancel` is polled; any value but 0 makes the call return RC_CANCELLED soon.
- * `progress` is added to, atomically: pixels by rc_field, seeds by rc_nearest. */
+ * `progress` is added to, atomically: pixels by rc_field, seeds by rc_nearest_part. */
 typedef struct {
     const volatile int32_t *cancel;
     int64_t *progress;
@@ -70,11 +72,27 @@ RC_API int32_t rc_graph_fill(int64_t height, int64_t width, int32_t wrap, const 
 RC_API int32_t rc_field(const rc_graph *graph, int64_t count, const int64_t *pixels, const float *start, float *plane,
                         const rc_control *control);
 
-/* The k nearest of `count` seeds of every pixel, distances ascending, the lower seed first among equals. `labels`
- * holds 2 k words of 32 bits per plane entry (rc_plane_size(...) * 2 * k): k float distances, then k int32 seeds; unused
- * places hold infinity and -1. Pixels that are no nodes are left as they were. */
-RC_API int32_t rc_nearest(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, void *labels,
-                          const rc_control *control);
+/* The k nearest of `count` seeds of every pixel take three steps; between them seeds can be parted among threads.
+ *
+ * First, `bound` (a plane) receives numbers that the distance of the k-th nearest seed lies below, infinite where fewer
+ * arrive. `lists` (may be null) holds the `few` nearest of every pixel, fewer than k, as rc_nearest_merge leaves them;
+ * with them the bounds are tighter. */
+RC_API int32_t rc_nearest_bounds(const rc_graph *graph, int64_t count, const int64_t *pixels, int32_t k, int32_t few,
+                                 const void *lists, float *bound, const rc_control *control);
+
+/* Second, for each part: the nearest of `count` seeds whose ascending numbers are `seeds`. `labels` holds 2 k words of 32
+ * bits per plane entry (rc_plane_size(...) * 2 * k): k float distances, then k int32 seeds; what no seed can be among the
+ * nearest of is left untouched. `listed` is a plane of bytes, all 0 at the start, not 0 where `labels` was written. */
+RC_API int32_t rc_nearest_part(const rc_graph *graph, const float *bound, int64_t count, const int64_t *pixels,
+                               const int32_t *seeds, int32_t k, void *labels, uint8_t *listed,
+                               const rc_control *control);
+
+/* Third, for pixels of the rows [row0, row1): the lists of all `parts` are merged into those of the first, distances
+ * ascending, the lower seed first among equals; unused places hold infinity and -1. Pixels that are no nodes are left as
+ * they were. RC_SHORT: rounding made a bound too low; all is to be done again with bounds that are infinite. */
+RC_API int32_t rc_nearest_merge(const rc_graph *graph, int64_t row0, int64_t row1, const float *bound, int32_t k,
+                                int32_t parts, void *const *labels, const uint8_t *const *listed,
+                                const rc_control *control);
 
 /* Equation 1, one seed at a time, for a seed that lies `field` away (rows of field_stride floats). The sums are kept
  * relative to the nearest seed so far: weight = sum (r / nearest)^-alpha, and of each of 1 to RC_MAX_CHANNELS channels,
@@ -89,7 +107,7 @@ RC_API int32_t rc_blend_add(int64_t height, int64_t width, const float *field, i
 RC_API int32_t rc_blend_finish(int64_t count, const float *weight, int32_t channels, float *means,
                                int64_t channel_stride);
 
-/* Equation 1 over the k labels of every pixel of one row range [row0, row1) of rc_nearest's result. `values` holds
+/* Equation 1 over the k labels of every pixel of one row range [row0, row1) of the merged lists. `values` holds
  * `channels` floats per seed. `bound` (may be null) receives the most that the seeds left out could change any channel
  * by, given that `count` seeds exist. Outputs are height x width, contiguous, `means` one such image for each channel;
  * a pixel without a label gets the distance infinity, the index -1 and otherwise 0. */

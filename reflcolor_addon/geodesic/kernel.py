@@ -18,6 +18,7 @@ adds n roundings, so that a distance d lies within (n + 7) u d of the exact one.
 """
 
 import mmap
+from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ from ..native.library import (
     ABI_VERSION,
     MAX_CHANNELS,
     NO_MEMORY,
+    SHORT,
     CGraph,
     Control,
     address,
@@ -52,11 +54,15 @@ __all__ = [
 ]
 
 MAX_NEAREST = 1024
+MAX_PARTS = 64
 
 # Windows has no other anonymous memory; elsewhere, shared is the default and costs more.
 _PRIVATE = {"flags": mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS} if hasattr(mmap, "MAP_PRIVATE") else {}
 # Blended at once: few enough for the sums to stay in the cache, and between two looks at the wish to cancel.
 _PIXELS_AT_ONCE = 1 << 15
+_ROWS_AT_ONCE = 64
+# For so many nearest seeds it pays to find a few first: they tell the distances between seeds, and those the bounds.
+_MANY, _FEW = 16, 4
 
 
 class Graph:
@@ -191,7 +197,7 @@ class Mean(NamedTuple):
     """(H, W) float32: distance of the nearest seed; infinite where none arrives."""
 
 
-def nearest(graph, pixels, k, *, control=None):
+def nearest(graph, pixels, k, *, threads=1, known=None, control=None):
     """Find the k nearest seeds of every pixel with their exact distances.
 
     Parameters
@@ -201,6 +207,10 @@ def nearest(graph, pixels, k, *, control=None):
         One per seed, ``row * width + column``; several seeds may share a pixel.
     k : int
         1 to 1024; more than there are seeds leaves places empty.
+    threads : int, optional
+        Each takes the seeds of some rows; their number changes no bit.
+    known : Nearest, optional
+        The nearest of the same seeds, fewer than k, from an earlier call: they tell how far to search.
     control : Control, optional
 
     Returns
@@ -214,10 +224,50 @@ def nearest(graph, pixels, k, *, control=None):
     pixels = graph._pixels(pixels)
     if not 1 <= k <= MAX_NEAREST:
         raise ReflcolorError(f"the number of nearest seeds must be 1 to {MAX_NEAREST}, found {k}")
-    found = Nearest(graph, k)
-    arguments = pixels.size, address(pixels), k, address(found._plane), pointer_to(control)
-    check(library().rc_nearest(graph._c, *arguments))
+    control = control or Control()
+    if known is None and k >= _MANY:
+        known = nearest(graph, pixels, _FEW, threads=threads, control=control.uncounted())
+    bound, _ = graph._plane()
+    lists = (0, None) if known is None else (known._k, address(known._plane))
+    arguments = pixels.size, address(pixels), k, *lists, address(bound)
+    check(library().rc_nearest_bounds(graph._c, *arguments, pointer_to(control)))
+    # By rows, because then the parts have few pixels in common.
+    parts = np.array_split(np.argsort(pixels, kind="stable"), min(threads, MAX_PARTS, pixels.size))
+    parts = [np.sort(part).astype(np.int32) for part in parts]
+    with ThreadPoolExecutor(len(parts), "reflcolor") as pool:
+        found = _searched(graph, pixels, k, bound, parts, pool.map, control)
+        if found is None:
+            bound.fill(np.inf)
+            found = _searched(graph, pixels, k, bound, parts, pool.map, control)
     return found
+
+
+def _searched(graph, pixels, k, bound, parts, run, control):
+    """The Nearest of the seeds of all parts; None if a bound was too low, as rounding could in principle make it."""
+    results = [(Nearest(graph, k), np.zeros(bound.size, np.uint8)) for _ in parts]
+
+    def search(part, result):
+        found, listed = result
+        own = np.ascontiguousarray(pixels[part])
+        arguments = part.size, address(own), address(part), k, address(found._plane), address(listed)
+        check(library().rc_nearest_part(graph._c, address(bound), *arguments, pointer_to(control)))
+
+    for _ in run(search, parts, results):
+        pass
+    labels = np.array([address(found._plane) for found, _ in results], np.uintp)
+    listed = np.array([address(listed) for _, listed in results], np.uintp)
+
+    def merge(top):
+        rows = top, min(top + _ROWS_AT_ONCE, graph.shape[0])
+        arguments = address(bound), k, len(results), address(labels), address(listed)
+        return library().rc_nearest_merge(graph._c, *rows, *arguments, pointer_to(control))
+
+    codes = list(run(merge, range(0, graph.shape[0], _ROWS_AT_ONCE)))
+    if SHORT in codes:
+        return None
+    for code in codes:
+        check(code)
+    return results[0][0]
 
 
 class Nearest:

@@ -11,12 +11,13 @@ import numpy as np
 
 from ..errors import Cancelled, ReflcolorError
 
-ABI_VERSION = 4
+ABI_VERSION = 5
 MAX_CHANNELS = 4
 """Values that a seed can have, of which means and sums are taken."""
 
 NO_MEMORY = "the kernel ran out of memory: use a larger stride or fewer nearest seeds"
 _OK, _CANCELLED, _MEMORY = 0, 1, 2
+SHORT = 3
 _REFUSED = {
     -1: "a null pointer",
     -2: "an image that is empty or too large for 32-bit pixel indices",
@@ -52,7 +53,21 @@ _FUNCTIONS = {
     "rc_plane_size": (_i64, _i64, _i64),
     "rc_graph_fill": (_i32, _i64, _i64, _i32, *[_pointer, _i64] * 3, _pointer, _pointer, _control_pointer),
     "rc_field": (_i32, _graph_pointer, _i64, _pointer, _pointer, _pointer, _control_pointer),
-    "rc_nearest": (_i32, _graph_pointer, _i64, _pointer, _i32, _pointer, _control_pointer),
+    "rc_nearest_bounds": (
+        *(_i32, _graph_pointer, _i64, _pointer, _i32, _i32),
+        *[_pointer] * 2,
+        _control_pointer,
+    ),
+    "rc_nearest_part": (
+        *(_i32, _graph_pointer, _pointer, _i64, _pointer, _pointer, _i32),
+        *[_pointer] * 2,
+        _control_pointer,
+    ),
+    "rc_nearest_merge": (
+        *(_i32, _graph_pointer, _i64, _i64, _pointer, _i32, _i32),
+        *[_pointer] * 2,
+        _control_pointer,
+    ),
     "rc_blend_add": (
         *(_i32, _i64, _i64, _pointer, _i64, _f32, _i32, _i32, _pointer),
         *[_pointer] * 4,
@@ -137,6 +152,12 @@ class Control:
     def cancel(self):
         """Stop the calls that use this object."""
         self._cancel[0] = 1
+
+    def uncounted(self):
+        """Return a Control that is cancelled together with this one, but whose work does not count."""
+        other = Control()
+        other._cancel, other._c = self._cancel, _CControl(address(self._cancel), None)
+        return other
 
     @property
     def cancelled(self):
