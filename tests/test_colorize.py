@@ -289,7 +289,7 @@ def test_the_nearest_seeds_differ_from_all_by_no_more_than_the_bound(data, grid,
     colors = np.random.default_rng(rows.size).uniform(-128, 128, (rows.size, 2)).astype(np.float32)
     engine = engine_for(graph)
     pixels = np.ravel_multi_index((rows, cols), valid.shape)
-    mean, bound, _ = engine.nearest(pixels, colors, alpha, min(k, rows.size), engine.control())
+    mean, bound = engine.nearest(pixels, min(k, rows.size), engine.control()).blend(colors, alpha)
     expected = reference_blend(distances_over(graph, rows, cols), colors, alpha)
     reached = np.isfinite(mean.least)
     assert (reached == ~np.isnan(expected[..., 0])).all()
@@ -304,7 +304,7 @@ def test_auto_takes_all_seeds_where_that_is_quick_else_the_nearest_and_says_whic
     rng = np.random.default_rng(2)
     seeds = Seeds(rng.integers(0, 20, 60), rng.integers(0, 30, 60), rng.integers(0, 256, (60, 3)))
     assert colorize(scan, seeds, Settings(nearest="auto")).method["nearest"] is None
-    monkeypatch.setattr("reflcolor_addon.color.colorizer.AUTO_EXACT_PIXEL_SEEDS", 1000)
+    monkeypatch.setattr("reflcolor_addon.color.nearest_seeds.EXACT_PIXEL_SEEDS", 1000)
     method = colorize(scan, seeds, Settings(nearest="auto")).method
     if engine == "scipy":
         assert method["nearest"] is None and "slower" in method["note"]

@@ -54,10 +54,30 @@ def test_the_distances_are_the_reference(small, k):
     np.testing.assert_allclose(distances, of_listed(fields, seeds), rtol=(small.valid.size + 7) * 2**-24)
 
 
+@settings(max_examples=300)
+@given(small_graphs(seeds=9), st.integers(1, 20), st.integers(2, 9))
+def test_the_number_of_threads_changes_no_bit(small, k, threads):
+    one, several = (kernel.nearest(small.kernel_graph(), small.pixels, k, threads=n) for n in (1, threads))
+    np.testing.assert_array_equal(one.distances, several.distances)
+    np.testing.assert_array_equal(one.seeds, several.seeds)
+
+
+@settings(max_examples=300)
+@given(small_graphs(seeds=9), st.integers(1, 8), st.integers(1, 8))
+def test_the_distances_are_the_same_whether_fewer_are_known_or_not(small, few, more):
+    graph = small.kernel_graph()
+    known = kernel.nearest(graph, small.pixels, few)
+    found = kernel.nearest(graph, small.pixels, few + more, known=known)
+    alone = kernel.nearest(graph, small.pixels, few + more)
+    np.testing.assert_array_equal(found.distances, alone.distances)
+    np.testing.assert_array_equal(of_listed(small.fields(), found.seeds), found.distances)
+
+
 def test_on_a_flat_image_the_first_seeds_win():
     flat = np.zeros((4, 5), np.float32)
-    found = kernel.nearest(kernel.Graph(flat, flat, flat == 0), [19, 0, 7, 7, 3], 3)
-    assert (found.seeds == [0, 1, 2]).all()
+    for threads in (1, 3):
+        found = kernel.nearest(kernel.Graph(flat, flat, flat == 0), [19, 0, 7, 7, 3], 3, threads=threads)
+        assert (found.seeds == [0, 1, 2]).all()
 
 
 def test_many_seeds_on_a_real_size_agree_with_their_fields():

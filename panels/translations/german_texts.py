@@ -167,6 +167,7 @@ _REPORTS = {
 
 CORE = {
     "Estimating by kriging": "Schätzen durch Kriging",
+    "Mixing the colors": "Mischen der Farben",
     "Matched": "Zugeordnet",
     "Opening the photos": "Fotos werden geöffnet",
     "Preparing the scan": "Scan wird vorbereitet",

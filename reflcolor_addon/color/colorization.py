@@ -29,8 +29,10 @@ class Colorization:
     method : dict
         ``engine`` that computed the distances and a ``note`` if it is not the kernel; ``nearest``, the number of
         seeds per pixel (None: all), and then ``bound_levels``: the most, in 8-bit levels, that the seeds left out could
-        change, over all pixels (``max``) and over 999 of 1,000 (``p99.9``); with kriging, the share that it got in the
-        chrominance (``kriging``) and, if it is spread, in the luminance (``kriging_of_luminance``).
+        change, over all pixels (``max``) and over 999 of 1,000 (``p99.9``); where that number was left to the program,
+        ``doubled_levels``: how much 95 of 100 pixels change at most when half of it is doubled; with kriging, the
+        share that it got in the chrominance (``kriging``) and, if it is spread, in the luminance
+        (``kriging_of_luminance``).
     """
 
     rgb: np.ndarray

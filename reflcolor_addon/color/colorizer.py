@@ -11,13 +11,13 @@ from ..errors import Cancelled
 from ..files.memory import require_memory
 from ..geodesic.blending import left_out
 from ..geodesic.engines import engine_for
-from ..geodesic.exact import HeldFields, add_fields, awaited
+from ..geodesic.exact import HeldFields, add_fields
 from ..geodesic.graph import PixelGraph
 from ..geodesic.smoothing import smooth
 from ..messages import Message
 from ..scan.normalization import normalize
 from ..settings import Settings
-from . import colorspaces
+from . import colorspaces, nearest_seeds
 from .colorization import Colorization
 from .kriging import MAX_SEEDS, Kriging, pixel_features, share
 from .luminance import CHROMINANCE, channels_of, lightness, seed_values
@@ -27,12 +27,6 @@ from .tone import tone_to_try
 _HALF_CONFIDENCE = 64.0
 # The same, in 8-bit levels, for the difference between eq. 1 and kriging and for what no color can show.
 _HALF_CONFIDENCE_LEVELS = 5.0
-# nearest="auto": exact up to this many pixels times seeds, about 2 s on two threads. A fixed number, not a measured
-# time: the same input must give the same result everywhere.
-AUTO_EXACT_PIXEL_SEEDS = 1.5e8
-# Otherwise the first of these for which 999 of 1,000 pixels lie within this many 8-bit levels of the exact result.
-AUTO_NEAREST = (8, 16, 32)
-AUTO_TOLERANCE_LEVELS = 4.0
 _POLL_S = 0.02
 _DEFAULT_MEMORY = 1 << 30
 # Of the progress; the colors are written after both.
@@ -230,36 +224,27 @@ class Colorizer:
     def _require_memory(self, seeds):
         always, per_thread, per_nearest = self._engine.memory
         nearest = self.settings.nearest
-        labels = max(AUTO_NEAREST) if nearest == "auto" and not self._is_small(seeds) else nearest
+        if nearest == "auto" and not nearest_seeds.all_are_few(seeds, self.scan.valid.size):
+            nearest = nearest_seeds.NUMBERS[0]
         per_pixel = always + (
-            per_nearest * min(labels, seeds) if isinstance(labels, int) else per_thread * self.threads
+            per_nearest * min(nearest, seeds) if isinstance(nearest, int) else per_thread * self.threads
         )
         per_pixel += _KRIGING_BYTES if self.settings.kriging else 0
         rows, columns = self.scan.shape
         require_memory(per_pixel * rows * columns, f"{self.scan.name}: colorizing {rows} rows x {columns} columns")
 
-    def _is_small(self, seeds):
-        return seeds * self.scan.valid.size <= AUTO_EXACT_PIXEL_SEEDS or seeds <= AUTO_NEAREST[0]
-
     def _propagate(self, pixels, values, progress, cancelled):
         """Return the mean of eq. 1, how it was come by, and what lies near the seeds (see the engine's ``nearest``)."""
         nearest = self.settings.nearest
         method = {"engine": self._engine.name, "note": self._engine.note, "nearest": None}
-        if nearest is None or (nearest == "auto" and (self._engine.note or self._is_small(len(pixels)))):
+        few = nearest_seeds.all_are_few(len(pixels), self.scan.valid.size)
+        if nearest is None or (nearest == "auto" and (self._engine.note or few)):
             mean, near = self._exact(pixels, values, progress, cancelled)
             return mean, method, near
-        for k in AUTO_NEAREST if nearest == "auto" else (nearest,):
-            mean, bound, near = self._nearest(pixels, values, min(k, len(pixels)), progress, cancelled)
-            levels = colorspaces.levels_per_unit(self.settings.color_space)
-            largest, percentile = self._bound_levels(bound, levels)
-            method |= {"nearest": k, "bound_levels": {"max": largest, "p99.9": percentile}}
-            if percentile <= AUTO_TOLERANCE_LEVELS:
-                break
-        return mean, method, near
-
-    def _bound_levels(self, bound, levels):
-        inside = bound[self.scan.valid]
-        return round(float(inside.max()) * levels, 3), round(float(np.percentile(inside, 99.9)) * levels, 3)
+        mean, found, near = nearest_seeds.mean_of_nearest(
+            self._engine, pixels, values, self.scan.valid, self.settings, self.threads, progress, cancelled
+        )
+        return mean, method | found, near
 
     def _exact(self, pixels, values, progress, cancelled):
         """Eq. 1 over all seeds, in their order; fields that are not held are computed in threads, a few ahead."""
@@ -303,22 +288,6 @@ class Colorizer:
         if not self._fields.limit:
             self._forget_sums()
         return mean, near
-
-    def _nearest(self, pixels, values, k, progress, cancelled):
-        control = self._engine.control()
-        alpha = self.settings.alpha
-
-        def tell():
-            text = Message("{nearest} nearest of {count} seeds", nearest=k, count=len(pixels))
-            progress(min(1, control.done / len(pixels)), text)
-
-        with ThreadPoolExecutor(1, "reflcolor") as pool:
-            later = pool.submit(self._engine.nearest, pixels, values, alpha, k, control)
-            try:
-                return awaited(later, control, tell, cancelled)
-            except BaseException:
-                control.cancel()
-                raise
 
     def _paint(self, values, reached, cancelled):
         """Return the (H, W, 3) uint8 colors and the (H, W) float32 levels of chrominance that they lack."""

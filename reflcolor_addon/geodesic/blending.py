@@ -87,14 +87,10 @@ def blend_nearest(distances, seeds, values, alpha):
         chords between places where it is known lie above it, and where they meet W t / w_k bounds t.
     """
     values = np.asarray(values, np.float64)
-    least = distances[..., 0].astype(np.float64)
-    each = distances.astype(np.float64)
-    weights = _relative_weight(each, np.broadcast_to(least[..., None], each.shape), alpha)
+    means, weights = weighted_mean(distances, seeds, values, alpha)
     total = weights.sum(axis=-1)
     reached = total > 0
-    means = np.moveaxis(
-        (weights[..., None] * values[seeds]).sum(axis=-2) / np.where(reached, total, 1)[..., None], -1, 0
-    )
+    means = np.moveaxis(means, -1, 0)
     every = seeds.shape[-1] < len(values)
     each = np.where((seeds[..., -1] >= 0) & every, weights[..., -1], 0)
     bound = np.max(
@@ -106,12 +102,36 @@ def blend_nearest(distances, seeds, values, alpha):
         axis=0,
     )
     mean = Mean(
-        values=np.where(reached, means, 0).astype(np.float32),
+        values=means.astype(np.float32),
         weight=total.astype(np.float32),
         nearest_seed=seeds[..., 0].copy(),
         least=distances[..., 0].copy(),
     )
     return mean, np.where(reached, bound, 0).astype(np.float32)
+
+
+def weighted_mean(distances, seeds, values, alpha):
+    """Take eq. 1 over lists of seeds.
+
+    Parameters
+    ----------
+    distances, seeds : (..., k) float32, (..., k) int32
+        As in `blend_nearest`.
+    values : (S, C) float
+    alpha : float
+
+    Returns
+    -------
+    means : (..., C) float64
+        0 where a list is empty.
+    weights : (..., k) float64
+        Relative to that of the nearest; 0 in empty places.
+    """
+    each = distances.astype(np.float64)
+    weights = _relative_weight(each, np.broadcast_to(each[..., :1], each.shape), alpha)
+    total = weights.sum(axis=-1, keepdims=True)
+    sums = (weights[..., None] * np.asarray(values, np.float64)[seeds]).sum(axis=-2)
+    return sums / np.where(total > 0, total, 1), weights
 
 
 def _shift(values, mean, seeds, total, each, side):
@@ -158,8 +178,7 @@ def left_out(distances, seeds, values, alpha):
     distances = np.where(own, np.inf, distances)
     order = np.argsort(distances, axis=1, kind="stable")
     distances, seeds = (np.take_along_axis(array, order, axis=1) for array in (distances, seeds))
-    mean, _ = blend_nearest(distances[:, None], seeds[:, None], values, alpha)
-    return mean.values[:, :, 0].T
+    return weighted_mean(distances, seeds, values, alpha)[0].astype(np.float32)
 
 
 def _relative_weight(farther, nearest, alpha):

@@ -1,4 +1,4 @@
-"""What computes the geodesic distances: the native kernel, or scipy where none loads. Both offer the same four names.
+"""What computes the geodesic distances: the native kernel, or scipy where none loads. Both offer the same names.
 
 Distances are float32. A path of n steps lies within (n + 7) 2^-24 of its exact length with the kernel; scipy's are
 float64, rounded.
@@ -48,13 +48,9 @@ class NativeEngine:
         """Return the empty sums of eq. 1."""
         return kernel.Blend(self.shape, alpha, channels)
 
-    def nearest(self, pixels, values, alpha, k, control):
-        """Return the mean over the k nearest seeds of every pixel, its (H, W) bound, and those of the seeds' pixels.
-
-        ``values`` are (S, C). The last are (S, k) distances and (S, k) seeds.
-        """
-        found = kernel.nearest(self._graph, pixels, k, control=control)
-        return *found.blend(values, alpha, control=control), found.at(pixels)
+    def nearest(self, pixels, k, control, *, threads=1, known=None):
+        """Return the k nearest seeds of every pixel, as a `kernel.Nearest`; ``known`` is one of fewer."""
+        return kernel.nearest(self._graph, pixels, k, threads=threads, known=known, control=control)
 
 
 class ScipyEngine:
@@ -85,8 +81,8 @@ class ScipyEngine:
         """Return the empty sums of eq. 1."""
         return Blend(self.shape, alpha, channels)
 
-    def nearest(self, pixels, values, alpha, k, control):
-        """Return the mean over the k nearest seeds of every pixel, its (H, W) bound, and those of the seeds' pixels."""
+    def nearest(self, pixels, k, control, *, threads=1, known=None):
+        """Return the k nearest seeds of every pixel, as a `Listed`."""
         distances = np.full((*self.shape, k + 1), np.inf, np.float32)
         seeds = np.full((*self.shape, k + 1), -1, np.int32)
         for seed, pixel in enumerate(pixels):
@@ -95,9 +91,29 @@ class ScipyEngine:
             order = np.argsort(distances, axis=-1, kind="stable")
             distances, seeds = (np.take_along_axis(array, order, axis=-1) for array in (distances, seeds))
             control.done = seed + 1
-        distances, seeds = distances[..., :k], seeds[..., :k]
-        place = np.unravel_index(pixels, self.shape)
-        return *blend_nearest(distances, seeds, values, alpha), (distances[place], seeds[place])
+        return Listed(distances[..., :k], seeds[..., :k])
+
+
+class Listed:
+    """The nearest seeds of every pixel, as arrays; it offers what a `kernel.Nearest` does.
+
+    Parameters
+    ----------
+    distances : (H, W, k) float32
+    seeds : (H, W, k) int32
+    """
+
+    def __init__(self, distances, seeds):
+        self._distances, self._seeds = distances, seeds
+
+    def at(self, pixels):
+        """(P, k) distances and seeds of single pixels."""
+        place = np.unravel_index(pixels, self._seeds.shape[:2])
+        return self._distances[place], self._seeds[place]
+
+    def blend(self, values, alpha, *, control=None):
+        """Return the mean over the seeds of every pixel, and its (H, W) bound."""
+        return blend_nearest(self._distances, self._seeds, values, alpha)
 
 
 class _Flag:

@@ -235,10 +235,11 @@ def nearest(graph, pixels, k, *, threads=1, known=None, control=None):
     parts = np.array_split(np.argsort(pixels, kind="stable"), min(threads, MAX_PARTS, pixels.size))
     parts = [np.sort(part).astype(np.int32) for part in parts]
     with ThreadPoolExecutor(len(parts), "reflcolor") as pool:
-        found = _searched(graph, pixels, k, bound, parts, pool.map, control)
+        run = pool.map if len(parts) > 1 else map
+        found = _searched(graph, pixels, k, bound, parts, run, control)
         if found is None:
             bound.fill(np.inf)
-            found = _searched(graph, pixels, k, bound, parts, pool.map, control)
+            found = _searched(graph, pixels, k, bound, parts, run, control)
     return found
 
 

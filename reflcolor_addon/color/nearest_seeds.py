@@ -1,0 +1,147 @@
+"""Eq. 1 over the nearest seeds of every pixel, and how many they are where that is left to the program."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from ..files.memory import require_memory
+from ..geodesic.blending import weighted_mean
+from ..geodesic.exact import awaited
+from ..messages import Message
+from . import colorspaces
+
+# All seeds up to this many pixels times seeds, about 2 s on two threads. A fixed number, not a measured time: the same
+# input must give the same result everywhere.
+EXACT_PIXEL_SEEDS = 1.5e8
+NUMBERS = (8, 16, 32)
+"""Otherwise the first of these that is enough, or the last."""
+# A number of seeds is enough if half of them would have given 95 of 100 pixels the same color within one 8-bit level.
+_ENOUGH_PERCENTILE, _ENOUGH_LEVELS = 95, 1.0
+# Pixels that this is looked up at.
+_SAMPLE = 50_000
+_GOLDEN = 0.6180339887498949
+
+
+def all_are_few(seeds, pixels):
+    """Whether so many seeds are taken as they are on a scan of so many pixels."""
+    return seeds * pixels <= EXACT_PIXEL_SEEDS or seeds <= NUMBERS[0]
+
+
+def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, cancelled):
+    """Return the mean of eq. 1 over the nearest seeds, how many these are, and those of the seeds' own pixels.
+
+    Parameters
+    ----------
+    engine : NativeEngine or ScipyEngine
+    pixels : (S,) int
+        Of the seeds.
+    values : (S, C) float32
+        What is spread.
+    valid : (H, W) bool
+    settings : Settings
+        Its ``nearest`` is a number, or "auto".
+    threads : int
+    progress, cancelled : callable
+
+    Returns
+    -------
+    mean : Mean
+    method : dict
+        See ``Colorization.method``.
+    near : ((S, k) float32, (S, k) int32)
+        Distances and seeds.
+    """
+    levels = colorspaces.levels_per_unit(settings.color_space)
+    found, method, told = None, {}, 0.0
+    sought = NUMBERS if settings.nearest == "auto" else (settings.nearest,)
+    for k in dict.fromkeys(min(number, len(pixels)) for number in sought):
+        if found is not None:
+            _require_memory(engine, k, valid.shape)
+        # Nobody knows yet whether more seeds will have to be sought.
+        end = (told + 1) / 2 if settings.nearest == "auto" else 1.0
+        found = _found(engine, pixels, k, found, threads, _part_of(progress, told, end), cancelled)
+        told, method["nearest"] = end, k
+        if settings.nearest == "auto":
+            doubled = doubled_levels(found.at(sample_of(valid)), values, settings.alpha, levels)
+            method["doubled_levels"] = {"p95": round(doubled, 3)}
+            if doubled <= _ENOUGH_LEVELS:
+                break
+    mean, bound = _apart(
+        engine,
+        lambda control: found.blend(values, settings.alpha, control=control),
+        lambda control: progress(1.0, "Mixing the colors"),
+        cancelled,
+    )
+    inside = bound[valid] * levels
+    largest, percentile = float(inside.max()), float(np.percentile(inside, 99.9))
+    method["bound_levels"] = {"max": round(largest, 3), "p99.9": round(percentile, 3)}
+    return mean, method, found.at(pixels)
+
+
+def sample_of(valid):
+    """Return some pixels with a return, spread evenly over a scan's (H, W) ``valid``: (P,) row * W + column."""
+    count = min(_SAMPLE, valid.size)
+    # Steps of the golden ratio: no row or column gets more than its share.
+    pixels = ((np.arange(count) * _GOLDEN % 1) * valid.size).astype(np.int64)
+    return pixels[valid.ravel()[pixels]]
+
+
+def doubled_levels(lists, values, alpha, levels_per_unit):
+    """Return how much the colors change when the number of nearest seeds is doubled to k.
+
+    Parameters
+    ----------
+    lists : ((P, k) float32, (P, k) int32)
+        Distances and seeds of some pixels.
+    values : (S, C) float
+        What is spread.
+    alpha : float
+    levels_per_unit : float
+
+    Returns
+    -------
+    float
+        8-bit levels that 95 of 100 of the pixels change by at most.
+    """
+    distances, seeds = lists
+    if not len(seeds):
+        return 0.0
+    half = max(1, seeds.shape[1] // 2)
+    doubled, _ = weighted_mean(distances, seeds, values, alpha)
+    before, _ = weighted_mean(distances[:, :half], seeds[:, :half], values, alpha)
+    changes = np.abs(doubled - before).max(axis=1) * levels_per_unit
+    return float(np.percentile(changes, _ENOUGH_PERCENTILE))
+
+
+def _part_of(progress, start, end):
+    return lambda done, text: progress(start + (end - start) * done, text)
+
+
+def _found(engine, pixels, k, known, threads, progress, cancelled):
+    def tell(control):
+        text = Message("{nearest} nearest of {count} seeds", nearest=k, count=len(pixels))
+        progress(min(1, control.done / len(pixels)), text)
+
+    def search(control):
+        return engine.nearest(pixels, k, control, threads=threads, known=known)
+
+    return _apart(engine, search, tell, cancelled)
+
+
+def _apart(engine, work, tell, cancelled):
+    """Return ``work(control)``, done by a thread; this one asks whether to go on, and tells how far it is."""
+    control = engine.control()
+    with ThreadPoolExecutor(1, "reflcolor") as pool:
+        later = pool.submit(work, control)
+        try:
+            return awaited(later, control, lambda: tell(control), cancelled)
+        except BaseException:
+            control.cancel()
+            raise
+
+
+def _require_memory(engine, k, shape):
+    """More seeds than were expected to be enough need more memory; raises ReflcolorError."""
+    _, _, per_nearest = engine.memory
+    rows, columns = shape
+    require_memory(per_nearest * k * rows * columns, f"{k} nearest seeds of {rows} rows x {columns} columns")
