@@ -73,8 +73,8 @@ def bounds(quick):
     """What nearest="auto" picks and why, the bound on what the seeds left out could change, and what they do change."""
     levels = colorspaces.levels_per_unit("ycbcr")
     head(
-        'Nearest seeds against all, 8-bit levels; what "auto" picks. Doubled: 95 of 100 pixels change no more from K / 2 '
-        "to K. Bound: mean / p99.9. Truth: mean / p95 / p99.9",
+        'Nearest seeds against all, 8-bit levels; what "auto" picks. Doubled: 95 of 100 pixels change no more from '
+        "K / 2 to K. Bound: mean / p99.9. Truth: mean / p95 / p99.9",
         *("scan", "seeds", "auto", *(f"K = {k}: {what}" for k in NUMBERS for what in ("doubled", "bound", "truth"))),
         "beyond the bound",
     )
