@@ -263,6 +263,66 @@ static void check_kriging(void)
     free(sums);
 }
 
+/* A number as scanners write it, or with many digits, or an exponent; returns its length. */
+static int write_number(char *out, size_t space)
+{
+    const double whole = (double)below(2) ? (double)below(100) : (double)below(1u << 30) * (double)below(1u << 30);
+    const double value = (whole + (double)below(1u << 30) / (double)(1u << 30)) * (below(2) ? 1.0 : -1.0);
+    switch (below(6)) {
+    case 0:
+        return snprintf(out, space, "%d", (int)below(256) - (int)below(2));
+    case 1:
+        return snprintf(out, space, "%.*e", (int)below(18), value);
+    case 2:
+        return snprintf(out, space, "%.*f", (int)below(20), value / 1e18);
+    case 3:
+        return snprintf(out, space, "%s%s", below(2) ? "+." : "-0.", below(2) ? "5" : "0007e-3");
+    default:
+        return snprintf(out, space, "%.*f", (int)below(12), value);
+    }
+}
+
+static void check_numbers(void)
+{
+    const int32_t width = 1 + (int32_t)below(7);
+    const int64_t lines = below(12);
+    char *text = room((size_t)lines * 800 + 1);
+    double *expected = room((size_t)(lines * width + 1) * sizeof *expected);
+    int64_t size = 0, rows = 0;
+    for (int64_t i = 0; i < lines; i++) {
+        const int32_t count = below(4) ? width : 0;
+        for (int32_t n = 0; n < count; n++) {
+            size += snprintf(text + size, 3, "%s", below(2) ? "\t" : "  ");
+            char *const start = text + size;
+            size += write_number(start, 100);
+            expected[rows * width + n] = strtod(start, NULL);
+        }
+        rows += count > 0;
+        text[size++] = '\n';
+    }
+    size -= size > 0 && below(2); /* the last line may do without its end */
+    char *exact = room((size_t)size + !size);
+    memcpy(exact, text, (size_t)size);
+    double *values = room((size_t)(lines * width + 1) * sizeof *values);
+    rc_numbers_read read;
+    int32_t code = rc_numbers(size, exact, lines, width, values, &read);
+    expect(code == RC_OK || code == RC_BAD_VALUE, "rc_numbers refuses a right call");
+    expect(code == RC_BAD_VALUE || (read.rows == rows && read.bytes == size), "lines are missing");
+    expect(!memcmp(values, expected, (size_t)(read.rows * width) * sizeof *values), "a number differs from strtod's");
+    note(values, (size_t)(read.rows * width) * sizeof *values);
+    for (int64_t i = 0; i < size; i++) {
+        exact[i] = below(6) ? exact[i] : (char)below(256);
+    }
+    code = rc_numbers(size, exact, lines, width, values, &read);
+    expect(code == RC_OK || code == RC_BAD_VALUE, "garbage is answered by another code");
+    expect(read.lines <= lines && read.rows <= read.lines && read.bytes <= size, "more was read than there is");
+    expect(rc_numbers(size, exact, lines, 0, values, &read) == RC_BAD_SIZE, "no numbers a line are taken");
+    free(text);
+    free(exact);
+    free(expected);
+    free(values);
+}
+
 static void one_round(void)
 {
     const int64_t h = 1 + below(below(4) ? 6 : 24), w = 1 + below(below(4) ? 6 : 24), size = rc_plane_size(h, w);
@@ -307,6 +367,7 @@ static void one_round(void)
     check_nearest(&g, count, pixels, fields);
     check_blend(h, w, count, fields);
     check_kriging();
+    check_numbers();
 
     const int64_t beyond = below(9), outside = below(2) ? -1 - beyond : h * w + beyond;
     expect(rc_field(&g, 1, &outside, NULL, plane, NULL) == RC_BAD_SEED, "a seed outside is taken");

@@ -1,4 +1,4 @@
-/* Geodesic fields, nearest seeds and the blending of equation 1 on a grid of pixels.
+/* Geodesic fields, nearest seeds and the blending of equation 1 on a grid of pixels; sums of kriging; lines of numbers.
  *
  * Every function is re-entrant: it keeps no state between calls, and several threads may call it at once on the
  * same graph as long as they write to different memory. All arithmetic is IEEE single or double precision without
@@ -19,7 +19,7 @@
 #define RC_API __attribute__((visibility("default")))
 #endif
 
-#define RC_ABI_VERSION 5
+#define RC_ABI_VERSION 6
 #define RC_SLACK 8
 #define RC_MAX_NEAREST 1024
 #define RC_MAX_PARTS 64
@@ -120,5 +120,16 @@ RC_API int32_t rc_blend_nearest(const rc_graph *graph, int64_t row0, int64_t row
  * `pixels` rows of `channels`. `control->progress` is added pixels to. */
 RC_API int32_t rc_kriging(int64_t pixels, const float *features, int64_t count, const float *seeds, int32_t channels,
                           const float *weights, float *sums, const rc_control *control);
+
+/* How far rc_numbers came: all of it is whole lines. */
+typedef struct {
+    int64_t lines, rows, bytes;
+} rc_numbers_read;
+
+/* Read up to `most_lines` lines of a text, each of `width` decimal numbers between blanks and tabs or none at all, into
+ * rows of `values`, which has room for `most_lines` of them. Lines end in LF; the last may end where the text does.
+ * RC_BAD_VALUE: the line behind those told in `read` is of other make, or has more digits than are taken here. */
+RC_API int32_t rc_numbers(int64_t size, const char *text, int64_t most_lines, int32_t width, double *values,
+                          rc_numbers_read *read);
 
 #endif

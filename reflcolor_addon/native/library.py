@@ -11,13 +11,13 @@ import numpy as np
 
 from ..errors import Cancelled, ReflcolorError
 
-ABI_VERSION = 5
+ABI_VERSION = 6
 MAX_CHANNELS = 4
 """Values that a seed can have, of which means and sums are taken."""
 
 NO_MEMORY = "the kernel ran out of memory: use a larger stride or fewer nearest seeds"
-_OK, _CANCELLED, _MEMORY = 0, 1, 2
-SHORT = 3
+OK, _CANCELLED, _MEMORY = 0, 1, 2
+SHORT, BAD_VALUE = 3, -3
 _REFUSED = {
     -1: "a null pointer",
     -2: "an image that is empty or too large for 32-bit pixel indices",
@@ -78,6 +78,7 @@ _FUNCTIONS = {
         *(_i32, _graph_pointer, _i64, _i64, _i32, _pointer, _i64, _i32, _pointer, _f32),
         *[_pointer] * 5,
     ),
+    "rc_numbers": (_i32, _i64, _pointer, _i64, _i32, _pointer, _pointer),
     "rc_kriging": (_i32, _i64, _pointer, _i64, _pointer, _i32, *[_pointer] * 2, _control_pointer),
 }
 
@@ -129,7 +130,7 @@ def check(code):
         raise Cancelled
     if code == _MEMORY:
         raise MemoryError(NO_MEMORY)
-    if code != _OK:
+    if code != OK:
         raise ReflcolorError(f"the kernel refused {_REFUSED.get(code, f'its arguments (code {code})')}")
 
 
