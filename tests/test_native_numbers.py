@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from reflcolor_addon.native.numbers import read_numbers
 
-plain = st.from_regex(r"[-+]?(\d{1,12}(\.\d{0,8})?|\.\d{1,8})([eE][-+]?\d{1,2})?", fullmatch=True)
+plain = st.from_regex(r"[-+]?([0-9]{1,12}(\.[0-9]{0,8})?|\.[0-9]{1,8})([eE][-+]?[0-9]{1,2})?", fullmatch=True)
 written = st.floats(-1e9, 1e9).map(repr) | st.floats(-1e6, 1e6).map("{:.6f}".format) | plain
 
 
