@@ -18,3 +18,17 @@ def run(argv):
         read_provenance=read_provenance,
     )
     return cli.main(argv, prog="blender -b --command reflcolor", blender=tasks)
+
+
+_commands = []
+
+
+def register():
+    """Add the command."""
+    _commands.append(bpy.utils.register_cli_command("reflcolor", run))
+
+
+def unregister():
+    """Take it out again."""
+    while _commands:
+        bpy.utils.unregister_cli_command(_commands.pop())

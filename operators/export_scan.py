@@ -96,3 +96,4 @@ def draw_menu(self, _context):
 
 
 classes = (REFLCOLOR_OT_export_scan,)
+menus = ((bpy.types.TOPBAR_MT_file_export, draw_menu),)

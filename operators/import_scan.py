@@ -190,3 +190,4 @@ def draw_menu(self, _context):
 
 
 classes = (REFLCOLOR_OT_import_scan,)
+menus = ((bpy.types.TOPBAR_MT_file_import, draw_menu),)

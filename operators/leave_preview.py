@@ -38,3 +38,4 @@ class ReflcolorWindow(bpy.types.PropertyGroup):
 
 
 classes = (ReflcolorWindow, REFLCOLOR_OT_leave_preview)
+pointers = ((bpy.types.WindowManager, "reflcolor", ReflcolorWindow),)

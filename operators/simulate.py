@@ -188,3 +188,4 @@ def draw_menu(self, _context):
 
 
 classes = (REFLCOLOR_OT_simulate,)
+menus = ((bpy.types.TOPBAR_MT_file_export, draw_menu),)

@@ -59,29 +59,11 @@ def draw_export(self, _context):
     self.layout.operator("reflcolor.save_seeds", text="Laser Scan Seeds (.json)")
 
 
-_ENTRIES = (
-    ("VIEW3D_MT_object", draw_submenu),
-    ("IMAGE_MT_image", draw_submenu),
-    ("VIEW3D_MT_object_context_menu", draw_context_menu),
-    ("TOPBAR_MT_file_import", draw_import),
-    ("TOPBAR_MT_file_export", draw_export),
-)
-_added = []
-
-
-def register():
-    """Put the entries into Blender's menus."""
-    for name, draw in _ENTRIES:
-        menu = getattr(bpy.types, name)
-        menu.append(draw)
-        _added.append((menu, draw))
-
-
-def unregister():
-    """Take them out again."""
-    while _added:
-        menu, draw = _added.pop()
-        menu.remove(draw)
-
-
 classes = (REFLCOLOR_MT_scan,)
+menus = (
+    (bpy.types.VIEW3D_MT_object, draw_submenu),
+    (bpy.types.IMAGE_MT_image, draw_submenu),
+    (bpy.types.VIEW3D_MT_object_context_menu, draw_context_menu),
+    (bpy.types.TOPBAR_MT_file_import, draw_import),
+    (bpy.types.TOPBAR_MT_file_export, draw_export),
+)

@@ -1,5 +1,6 @@
 """Step 1: the scan."""
 
+from ..operators.scene import packages
 from ..operators.scene.scan_object import GUESSED
 from ..operators.scene.texts import label
 from .step import Step, in_view
@@ -11,6 +12,11 @@ class Scan(Step):
     bl_label = "1. Scan"
 
     def draw_step(self, context, layout, obj):
+        if missing := packages.missing():
+            column = layout.column(align=True)
+            column.alert = True
+            column.label(text=label("{names} missing", names=", ".join(missing)), icon="ERROR", translate=False)
+            column.operator("reflcolor.repair", icon="FILE_REFRESH")
         layout.operator("reflcolor.import_scan", icon="IMPORT")
         if obj is None:
             layout.label(text="Import a scan, or select one", icon="INFO")

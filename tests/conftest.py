@@ -146,9 +146,9 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(config, items):
-    """Mark the tests that need bpy in the process, so that they can run in one of their own."""
+    """Mark the tests that need bpy, in the process or in one of their own, so that they can run apart."""
     for item in items:
-        if "_bare_blender" in getattr(item, "fixturenames", ()):
+        if {"_bare_blender", "extension_zip"} & set(getattr(item, "fixturenames", ())):
             item.add_marker("blender")
     if config.getoption("--blender"):
         others = [item for item in items if not item.get_closest_marker("blender")]

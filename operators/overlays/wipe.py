@@ -4,7 +4,7 @@ import functools
 
 import bpy
 import gpu
-from bpy.props import BoolProperty, FloatProperty, PointerProperty
+from bpy.props import BoolProperty, FloatProperty
 from gpu_extras.batch import batch_for_shader
 
 from ..scene.editors import redraw_editors
@@ -93,7 +93,6 @@ def scan_side(context):
 
 def register():
     """Draw from now on."""
-    bpy.types.WindowManager.reflcolor_wipe = PointerProperty(type=ReflcolorWipe)
     if not bpy.app.background:
         _handles.append(bpy.types.SpaceImageEditor.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW"))
 
@@ -103,7 +102,6 @@ def unregister():
     while _handles:
         bpy.types.SpaceImageEditor.draw_handler_remove(_handles.pop(), "WINDOW")
     _shader.cache_clear()
-    del bpy.types.WindowManager.reflcolor_wipe
 
 
 @functools.cache
@@ -140,3 +138,4 @@ def _draw():
 
 
 classes = (ReflcolorWipe,)
+pointers = ((bpy.types.WindowManager, "reflcolor_wipe", ReflcolorWipe),)

@@ -103,7 +103,7 @@ def remember_pixels(image, pixels):
     _remember(_memory_key(image), pixels)
 
 
-def forget_pixels():
+def unregister():
     """Remember no image; the extension is about to go."""
     _remembered.clear()
 

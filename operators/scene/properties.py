@@ -164,3 +164,4 @@ class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup
 
 
 classes = (ReflcolorSeed, ReflcolorPhoto, ReflcolorNotice, ReflcolorScan, ReflcolorSettings)
+pointers = ((bpy.types.Object, "reflcolor", ReflcolorScan), (bpy.types.Scene, "reflcolor", ReflcolorSettings))

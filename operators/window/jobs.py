@@ -19,7 +19,7 @@ def running():
     return _running[-1] if _running else None
 
 
-def stop_all():
+def unregister():
     """End whatever still runs, and wait for it; the extension is about to go."""
     for job in _running:
         job.cancel(wait=True)

@@ -8,7 +8,7 @@ from ..scene.texts import label
 _following = []
 
 
-def stop_all():
+def unregister():
     """Let go of whatever is being dragged; the extension is about to go."""
     for operator in list(_following):
         operator.let_go()

@@ -36,6 +36,7 @@ _OPERATORS = {
     "Pick Seed or Color": "Saatpunkt oder Farbe aufnehmen",
     "Place Seed": "Saatpunkt setzen",
     "Read Message": "Meldung lesen",
+    "Repair": "Reparieren",
     "Remove Photo": "Foto entfernen",
     "Remove Seed": "Saatpunkt entfernen",
     "Render": "Rendern",

@@ -17,6 +17,7 @@ _PANELS = {
     "Inputs (SHA-256)": "Eingaben (SHA-256)",
     "Its colors are guesses": "Seine Farben sind geraten",
     "Maps show in Solid shading": "Karten zeigen sich in der Schattierung Solide",
+    "{names} missing": "{names} fehlt",
     "Needs a scan": "Braucht einen Scan",
     "Delete": "Löschen",
     "Let Go": "Loslassen",
@@ -82,6 +83,7 @@ _MISSING = {
     "The mesh is linked from another file; make it local first": (
         "Das Netz ist aus einer anderen Datei verknüpft; erst lokal machen"
     ),
+    "Nothing is missing": "Nichts fehlt",
     "There are no messages": "Es gibt keine Meldungen",
     "Turn Live Update on first": "Erst die Live-Aktualisierung einschalten",
 }
@@ -166,6 +168,9 @@ _REPORTS = {
 }
 
 CORE = {
+    "{package} is missing: another extension took it away; disable and enable Reflectance Colorizer": (
+        "{package} fehlt: eine andere Erweiterung hat es weggenommen; Reflectance Colorizer aus- und einschalten"
+    ),
     "Estimating by kriging": "Schätzen durch Kriging",
     "Mixing the colors": "Mischen der Farben",
     "Matched": "Zugeordnet",

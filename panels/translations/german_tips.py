@@ -1,6 +1,9 @@
 """German: tooltips of operators, looks and settings."""
 
 _OPERATORS = {
+    "Disable and enable Reflectance Colorizer: then Blender puts back what another extension took away": (
+        "Reflectance Colorizer aus- und einschalten: dann setzt Blender wieder ein, was eine andere Erweiterung nahm"
+    ),
     "Delete the selected seeds; where none is selected, nothing, lest the scan itself be deleted": (
         "Die ausgewählten Saatpunkte löschen; ist keiner ausgewählt, nichts, damit nicht der Scan gelöscht wird"
     ),

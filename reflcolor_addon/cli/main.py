@@ -7,6 +7,7 @@ import argparse
 from functools import partial
 
 from ..batch.session import Session
+from ..bundled import missing_package
 from ..errors import Cancelled, ReflcolorError, UsageError
 from ..version import __version__
 from .console import Console
@@ -52,6 +53,11 @@ def main(argv, *, prog="python -m reflcolor_addon", blender=None):
             # A signal can surface as the failure of whatever it struck.
             status = interruption.exit_status if interruption.requested() else BAD_INPUT
             message = str(error)
+        except ImportError as error:
+            message = missing_package(error)
+            if message is None:
+                raise
+            status = BAD_INPUT
         except MemoryError:
             files = arguments.input if isinstance(arguments.input, list) else [arguments.input]
             status, message = BAD_INPUT, f"{', '.join(map(str, files))}: not enough memory for a scan of this size"

@@ -3,7 +3,6 @@
 import threading
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 
 from ..color import colorspaces
@@ -168,6 +167,8 @@ class _LiveScan:
 
     def _enlarged(self, image):
         """The image of a few pixels at the size of all."""
+        import cv2
+
         height, width = self._scan.shape
         larger = cv2.resize(image, None, fx=self._stride, fy=self._stride, interpolation=cv2.INTER_LINEAR)
         return larger[:height, :width]
