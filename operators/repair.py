@@ -15,6 +15,7 @@ class REFLCOLOR_OT_repair(bpy.types.Operator):
 
     bl_idname = "reflcolor.repair"
     bl_label = "Repair"
+    bl_options = {"INTERNAL"}
 
     @classmethod
     def poll(cls, _context):
