@@ -5,13 +5,21 @@ from pathlib import Path
 
 from ..errors import UsageError
 from ..files.readers.options import AS_IT_IS, ReadOptions
+from ..files.writers.scans_back import SCAN_FILES
 from ..settings import Settings
 
 PLACEHOLDER = "{scan}"
 """Stands for a scan's label in the path of what each of several scans has of its own."""
-IMAGE, MESH, SCENE = "image", "mesh", "scene"
+IMAGE, MESH, SCANS, SCENE = "image", "mesh", "scans", "scene"
 RENDER, REPORT, SEEDS, MATCHES = "render", "report", "seeds", "matches"
-RESULT_SUFFIXES = {".png": IMAGE, ".ply": MESH, ".glb": MESH, ".blend": SCENE, ".usd": SCENE}
+RESULT_SUFFIXES = {
+    ".png": IMAGE,
+    ".ply": MESH,
+    ".glb": MESH,
+    **dict.fromkeys(SCAN_FILES, SCANS),
+    ".blend": SCENE,
+    ".usd": SCENE,
+}
 """What a colorized scan is written as, by the suffix of its file."""
 
 
@@ -36,7 +44,7 @@ class Output:
     @property
     def is_scene(self):
         """Whether it shows a scene, in which there is room for several scans."""
-        return self.needs_blender or self.kind == MESH
+        return self.needs_blender or self.kind in (MESH, SCANS)
 
     @property
     def needs_blender(self):

@@ -7,11 +7,12 @@ from pathlib import Path
 from ..files.atomic import written_atomically
 from ..files.images import write_png
 from ..files.writers import MESH_WRITERS
+from ..files.writers.scans_back import ColoredScan, write_scans_back
 from ..matching import draw_matches
 from ..messages import Message
 from ..report.report import build_report, input_entry, output_entry, photo_entry, scan_entry, stamped
 from .paths import tracked
-from .plan import IMAGE, MATCHES, MESH, RENDER, REPORT, SCENE, SEEDS
+from .plan import IMAGE, MATCHES, MESH, RENDER, REPORT, SCANS, SCENE, SEEDS
 from .scan_job import surface_of
 from .session import timed
 
@@ -131,10 +132,26 @@ class _Writer:
 
     def _write_meshes(self, jobs, outputs):
         for output in outputs:
+            if output.kind == SCANS:
+                self._write_back(jobs, output.path)
             if output.kind == MESH:
                 write = MESH_WRITERS[output.path.suffix.lower()]
                 surfaces = [surface_of(job) for job in jobs]
                 write(surfaces, output.path, progress=self._session.progress, cancelled=self._session.cancelled)
+
+    def _write_back(self, jobs, path):
+        colored = [
+            ColoredScan(
+                scan=job.scan,
+                rgb=job.colorization.rgb,
+                source=job.path,
+                index=job.index,
+                options=self._plan.reading,
+            )
+            for job in jobs
+        ]
+        session = self._session
+        session.warnings += write_scans_back(colored, path, progress=session.progress, cancelled=session.cancelled)
 
     def _write_scenes(self, jobs, outputs):
         paths = [output.path for output in outputs if output.kind == SCENE]

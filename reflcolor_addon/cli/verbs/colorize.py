@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from ...batch.pipeline import run_plan
-from ...batch.plan import IMAGE, MESH, RENDER, REPORT, RESULT_SUFFIXES, SCENE, Output, Plan, result_output
+from ...batch.plan import IMAGE, MESH, RENDER, REPORT, RESULT_SUFFIXES, SCANS, SCENE, Output, Plan, result_output
 from ...errors import UsageError
 from ..options import add_matching, add_photos, add_propagation, add_scans, reading_of, settings_of
 
@@ -23,9 +23,9 @@ def add_arguments(parser):
     add_photos(parser, "photos that the seeds name (else looked for beside the seeds' file), or to find seeds in")
     add_propagation(parser)
     add_matching(parser)
-    images, meshes, scenes = (
+    images, meshes, scans, scenes = (
         ", ".join(suffix for suffix, kind in RESULT_SUFFIXES.items() if kind == wanted)
-        for wanted in (IMAGE, MESH, SCENE)
+        for wanted in (IMAGE, MESH, SCANS, SCENE)
     )
     parser.add_argument(
         "-o",
@@ -35,7 +35,7 @@ def add_arguments(parser):
         action="append",
         required=True,
         help=f"file to write, once for each: {images} (colorized reflectance image), {meshes} (colored mesh), "
-        f"or in Blender {scenes}",
+        f"{scans} (the scans with colors, a copy of a file of that kind), or in Blender {scenes}",
     )
     parser.add_argument("--render", metavar="PNG", type=Path, help="picture of the colored mesh (in Blender)")
     parser.add_argument("--report", metavar="JSON", type=Path, help="what was done, and a hash of every input")

@@ -33,7 +33,7 @@ def main(lines, answer):
     lines = iter(lines)
     request = json.loads(next(lines))
     columns = _opened(*request["columns"])
-    library = _library(request["library"], request["folders"])
+    library = library_at(request["library"], request["folders"])
     confine(**{key: request[key] for key in ("memory", "written", "seconds")})
     answer({"ready": True})
     try:
@@ -58,7 +58,7 @@ def _opened(number, path):
     return memoryview(mmap.mmap(number, 0))
 
 
-def _library(path, folders):
+def library_at(path, folders):
     """libE57 as it lies in the wheel, without the Python around it."""
     for folder in folders:
         os.add_dll_directory(folder)

@@ -66,17 +66,17 @@ class E57Columns:
 
     def __init__(self, file, path, *, words, xml_size, cancelled=None):
         self._path = path
-        library, folders = _library(path)
+        library, folders = library_of(path)
         size = max(1, words) * _WORD
         limits = {
             "memory": _BASE_BYTES + size + _BYTES_PER_XML_BYTE * xml_size,
             "seconds": _BASE_SECONDS + size_of(file) // _BYTES_PER_SECOND,
         }
-        columns, shown = _shared(size)
+        columns, shown = shared_file(size)
         try:
             self._memory = mmap.mmap(columns, size)
             handed_on = sys.platform != "win32"
-            with _one_line(path):
+            with OneLine(path):
                 self._child = Child(
                     SCRIPT, inherited=[file.fileno(), columns] if handed_on else [], cancelled=cancelled, **limits
                 )
@@ -128,7 +128,7 @@ class E57Columns:
             Views of the shared memory: the next reading overwrites them.
         """
         tell(0.0)
-        with _one_line(self._path):
+        with OneLine(self._path):
             self._child.ask({"scan": index, "vector": list(vector), "count": count, "fields": list(fields)})
         while (found := self._answer("at", "done", most=count))[0] == "at":
             tell(found[1] / count)
@@ -146,10 +146,10 @@ class E57Columns:
 
     def _answer(self, *kinds, most=1):
         """(kind, number) of the next answer, which is one of these."""
-        with _one_line(self._path):
+        with OneLine(self._path):
             answer = self._child.answer()
             if isinstance(answer.get("error"), str):
-                raise ScanError("{file}: {reason}", file=self._path.name, reason=_reason(answer["error"]))
+                raise ScanError("{file}: {reason}", file=self._path.name, reason=reason_of(answer["error"]))
             for kind in kinds:
                 number = answer.get(kind)
                 if isinstance(number, int) and 0 <= number <= most:
@@ -157,7 +157,7 @@ class E57Columns:
             raise ChildFailed("garbage")
 
 
-class _one_line:
+class OneLine:
     """Turns a child's failure within the block into a ScanError."""
 
     def __init__(self, path):
@@ -172,7 +172,7 @@ class _one_line:
         return False
 
 
-def _library(path):
+def library_of(path):
     """Where libE57 lies in the wheel, and the folders of the libraries that it needs on Windows."""
     try:
         spec = importlib.util.find_spec("pye57")
@@ -190,7 +190,7 @@ def _is_native(path):
     return path.suffix in (".so", ".pyd")
 
 
-def _shared(size):
+def shared_file(size):
     """A file for the columns that goes with its last user: its number, and its path where a child needs that."""
     if hasattr(os, "memfd_create"):
         number, shown = os.memfd_create("reflcolor"), ""
@@ -203,7 +203,7 @@ def _shared(size):
     return number, shown
 
 
-def _reason(text):
+def reason_of(text):
     # libE57 tells its code in the first line, and where in its own source in the others.
     first = text.strip().partition("\n")[0]
     code = re.search(r"Error\w+", first)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...errors import Cancelled, ScanError
+from ...errors import ScanError
 from ...messages import Message
 from ...scan.limits import FARTHEST_M, NEAREST_M, STRONGEST
 from ...scan.scan import Scan
@@ -117,38 +117,6 @@ def finish_grid(
         warnings=tuple(warnings),
     )
     return scan, settled.order
-
-
-def finish_scans(stored, source, *, cancelled=None):
-    """Finish every scan of a file; leave out those that cannot be used, and say so, unless there is no other.
-
-    Parameters
-    ----------
-    stored : list of dict
-        Keyword arguments of `finish_scan` (all but `source`). Emptied on the way, so that memory is given back.
-    source : Path
-    cancelled : callable, optional
-
-    Returns
-    -------
-    list of Scan
-
-    Raises
-    ------
-    ScanError
-        The reason of the first scan, if none can be used.
-    Cancelled
-        If `cancelled()` returned True.
-    """
-    finished, problems, count = [], [], len(stored)
-    while stored:
-        if cancelled and cancelled():
-            raise Cancelled
-        try:
-            finished.append(finish_scan(source=source, **stored.pop(0)))
-        except UnusableScan as error:
-            problems.append(error)
-    return with_problems(finished, problems, count, source)
 
 
 def with_problems(finished, problems, count, source):

@@ -13,10 +13,15 @@ class GridOrder:
     ----------
     shape : (H, W)
         Of the stored grid.
+
+    Attributes
+    ----------
+    stored, shape : (H, W)
+        Of the stored grid, and of the one that the steps lead to.
     """
 
     def __init__(self, shape):
-        self.shape = tuple(shape)
+        self.shape = self.stored = tuple(shape)
         self._steps = []
 
     def closed_up(self, cells, valid):

@@ -4,15 +4,17 @@ import re
 
 import numpy as np
 
-from ...errors import ScanError
+from ...errors import Cancelled, ScanError
 from ...messages import Message, one_line
 from ...scan.coherence import line_length
 from ...scan.limits import MOST_PIXELS
 from ..memory import require_memory
+from .angle import gridded_by_angle
+from .cloud import Place
 from .colors import scaled_colors
 from .formats import Format
-from .grid import BYTES_PER_PIXEL, finish_scans
-from .options import AS_IT_IS
+from .grid import BYTES_PER_PIXEL, UnusableScan, finish_grid, with_problems
+from .options import ANGLE, AS_IT_IS
 from .poses import ptx_pose
 from .text_lines import TextLines
 
@@ -46,6 +48,50 @@ def read_ptx(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
 
     Errors are those of `read_scans`.
     """
+    read = [scan for scan, *_ in each_scan(file, path, options=options, progress=progress, cancelled=cancelled)]
+    finished = [scan for scan in read if not isinstance(scan, UnusableScan)]
+    return with_problems(finished, [scan for scan in read if isinstance(scan, UnusableScan)], len(read), path)
+
+
+def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
+    """Yield for every scan of a PTX file, in its order, (scan, order, cells), as the one of E57 does.
+
+    ``cells`` has one number for each line of points of the scan.
+    """
+    stored = _stored_scans(file, path, options, progress, cancelled)
+    while stored:
+        if cancelled and cancelled():
+            raise Cancelled
+        scan = stored.pop(0)
+        cells = scan.pop("cells")
+        try:
+            if options.grid == ANGLE:
+                cells = _by_angle(scan, cells, path, options)
+            yield (*finish_grid(source=path, **scan), cells)
+        except UnusableScan as error:
+            yield error, None, None
+
+
+def _by_angle(stored, cells, path, options):
+    """Put the points of stored grids onto one by angle; return where each line of the file goes then."""
+    place = Place(file_name=path.name, name=stored["name"])
+
+    def warn(template, **values):
+        stored["warnings"].append(Message("scan '{scan}': " + template, scan=place.name, **values))
+
+    def flat(grid):
+        return None if grid is None else grid.reshape(-1, *grid.shape[2:])[np.maximum(cells, 0)]
+
+    points, named = flat(stored["points"]), [np.zeros(3), *stored["places"].values()]
+    valid = (cells >= 0) & (points != 0).any(axis=-1)
+    strength, color = flat(stored["reflectance"]), flat(stored["color"])
+    arrays, cells = gridded_by_angle(place, points, valid, strength, color, named, options, warn)
+    stored.update(arrays)
+    return cells
+
+
+def _stored_scans(file, path, options, progress, cancelled):
+    """Keyword arguments of `finish_grid` for every scan, and ``cells``."""
     stored = []
     lines = TextLines(file, path, progress=progress, cancelled=cancelled)
     rest = None
@@ -83,7 +129,7 @@ def read_ptx(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
         ]
     if rest is not None:
         stored[-1]["warnings"].append(Message("scan '{scan}': {note}", scan=stored[-1]["name"], note=rest))
-    return finish_scans(stored, path, cancelled=cancelled)
+    return stored
 
 
 class _CutShort(Exception):
@@ -161,7 +207,10 @@ def _in_lines(body, found, columns, rows, notes):
             else values[: lines * length].reshape(lines, length, *values.shape[1:]).swapaxes(0, 1)
         )
 
+    line = np.arange(found)
+    cells = np.where(line < lines * length, line % length * lines + line // length, -1)
     return {
+        "cells": cells,
         "points": grid(body.points),
         "reflectance": grid(body.intensity),
         "valid": np.ones((length, lines), bool),

@@ -7,14 +7,16 @@ from ..atomic import written_atomically
 _NO_RETURN = "0 0 0 0.500000"
 
 
-def write_ptx(scans, path):
+def write_ptx(scans, path, *, decimals=6):
     """Write scans one after the other into a PTX: columns left to right, each from the bottom to the top.
 
     Parameters
     ----------
     scans : Scan or sequence of Scan
-        Points keep six decimals (micrometres), reflectance six as well, as it is.
+        Reflectance keeps six decimals, as it is.
     path : path-like
+    decimals : int
+        Of the points: 6 for micrometres, 9 for nanometres.
 
     Raises
     ------
@@ -25,7 +27,7 @@ def write_ptx(scans, path):
     with written_atomically(path) as temporary, temporary.open("w", encoding="ascii", newline="\n") as file:
         for scan in scans:
             _write_header(file, scan)
-            _write_points(file, scan)
+            _write_points(file, scan, decimals)
 
 
 def _write_header(file, scan):
@@ -44,9 +46,9 @@ def _numbers(vector):
     return " ".join(f"{value + 0.0:.12g}" for value in vector)
 
 
-def _write_points(file, scan):
+def _write_points(file, scan, decimals):
     columns = [scan.points[..., axis] + 0.0 for axis in range(3)] + [scan.reflectance]
-    line = "%.6f %.6f %.6f %.6f"
+    line = " ".join([f"%.{decimals}f"] * 3) + " %.6f"
     blank = _NO_RETURN
     if scan.color is not None:
         columns += [scan.color[..., channel] for channel in range(3)]

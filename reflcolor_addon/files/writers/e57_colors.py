@@ -1,0 +1,176 @@
+"""The colors back into a copy of the E57 that a scan came from: everything else of the file stays as it is."""
+
+import mmap
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import OutputError, ScanError
+from ...messages import Message
+from ..atomic import written_atomically
+from ..confined.child import Child, ChildFailed
+from ..gate import opened, size_of
+from ..memory import require_memory
+from ..readers.e57 import each_scan
+from ..readers.e57_columns import OneLine, library_of, reason_of, shared_file
+from ..readers.grid import UnusableScan
+from ..readers.options import AS_IT_IS
+
+SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "e57_colors.py"
+_BYTES_PER_POINT = 4
+_BASE_BYTES, _BYTES_PER_XML_BYTE = 1 << 29, 80
+_BASE_SECONDS, _BYTES_PER_SECOND = 30, 500_000
+_LARGEST_XML = 1 << 20
+
+
+def write_e57_colors(source, colors, path, *, options=AS_IT_IS, progress=None, cancelled=None):
+    """Write a copy of an E57 in which points have the colors that their scans were given.
+
+    Points, rows and columns, intensity, poses, names, photos and everything else is copied as it is stored. Points that
+    are no part of the scan (not valid, or behind others) are marked ``isColorInvalid``.
+
+    Parameters
+    ----------
+    source : path-like
+        The file that the scans were read from.
+    colors : dict of int to (H, W, 3) uint8
+        sRGB, by the scan's place among those that `read_scans` returns, from 0.
+    path : path-like
+    options : ReadOptions
+        As the scans were read with.
+    progress, cancelled : callable, optional
+
+    Returns
+    -------
+    list of Message
+        What could not be kept, and how many points have no color.
+
+    Raises
+    ------
+    OutputError
+        If the file cannot be written, or its scans are of another size by now.
+    Cancelled
+        If ``cancelled()`` returned True.
+    """
+    source, path = Path(source), Path(path)
+    warnings = []
+    with opened(source, "an E57 file", error=ScanError) as file:
+        columns, places = _point_colors(file, source, colors, path, options, warnings, _share(progress, 0.0), cancelled)
+        file.seek(0)
+        with written_atomically(path) as temporary:
+            _copy(file, source, columns, places, temporary, path, warnings, _share(progress, 0.5), cancelled)
+    return warnings
+
+
+def _point_colors(file, source, colors, path, options, warnings, progress, cancelled):
+    """Four columns of bytes for every scan that has colors, one after the other, and where each begins."""
+    parts, places, at, number = [], {}, 0, -1
+    for index, (scan, order, cells) in enumerate(
+        each_scan(file, source, options=options, progress=progress, cancelled=cancelled)
+    ):
+        number += not isinstance(scan, UnusableScan)
+        rgb = None if isinstance(scan, UnusableScan) else colors.get(number)
+        if rgb is None:
+            continue
+        if rgb.shape[:2] != scan.shape:
+            raise OutputError(
+                "{file}: {source} is not the file any more that its scans were read from", file=path, source=source.name
+            )
+        there = cells >= 0
+        pixels = np.full(len(cells), -1, np.int64)
+        pixels[there] = order.pixels(*np.divmod(cells[there], order.stored[1]))
+        known = (pixels >= 0) & scan.valid.ravel()[pixels]
+        part = np.zeros((_BYTES_PER_POINT, len(cells)), np.uint8)
+        part[:3, known] = rgb.reshape(-1, 3)[pixels[known]].T
+        part[3] = ~known
+        parts.append(part)
+        places[index] = [at, len(cells), not known.all()]
+        at += part.size
+        if lost := np.count_nonzero(~known):
+            warnings.append(
+                Message(
+                    "{file}: scan '{scan}': {count:,} of {all:,} points have no color: they are no part of its grid",
+                    file=path.name,
+                    scan=scan.name,
+                    count=lost,
+                    all=len(cells),
+                )
+            )
+    if not places:
+        raise OutputError("{file}: {source} holds none of the scans any more", file=path, source=source.name)
+    return parts, places
+
+
+def _copy(file, source, parts, places, temporary, path, warnings, progress, cancelled):
+    size = sum(part.size for part in parts)
+    require_memory(size, source.name, error=OutputError)
+    library, folders = library_of(source)
+    number, shown = shared_file(size)
+    limits = {
+        "memory": _BASE_BYTES + size + _BYTES_PER_XML_BYTE * min(_LARGEST_XML * 64, size_of(file)),
+        # Packets and pages add a little to every byte, and a point with colors has more of them.
+        "written": 2 * size_of(file) + 16 * size + (1 << 24),
+        "seconds": _BASE_SECONDS + (size_of(file) + size) // _BYTES_PER_SECOND,
+    }
+    try:
+        with mmap.mmap(number, size) as memory:
+            at = 0
+            for part in parts:
+                memory[at : at + part.size] = part.tobytes()
+                at += part.size
+        handed_on = sys.platform != "win32"
+        with (
+            OneLine(source),
+            Child(
+                SCRIPT,
+                inherited=[file.fileno(), number] if handed_on else [],
+                cancelled=cancelled,
+                memory=limits["memory"],
+                seconds=limits["seconds"],
+            ) as child,
+        ):
+            child.ask(
+                {
+                    "library": str(library),
+                    "folders": folders,
+                    "file": [file.fileno() if handed_on else None, str(source)],
+                    "columns": [number if handed_on else None, shown],
+                    "output": str(temporary),
+                    "scans": places,
+                    **limits,
+                }
+            )
+            _follow(child, source, path, warnings, progress)
+    finally:
+        os.close(number)
+        if shown:
+            Path(shown).unlink(missing_ok=True)
+
+
+def _follow(child, source, path, warnings, progress):
+    while True:
+        answer = child.answer()
+        if "done" in answer:
+            return
+        if isinstance(answer.get("error"), str):
+            raise OutputError("{file}: cannot be written: {reason}", file=path, reason=reason_of(answer["error"]))
+        if isinstance(answer.get("lost"), str):
+            warnings.append(
+                Message(
+                    "{file}: the field {field} of {source} holds texts, and could not be kept",
+                    file=path.name,
+                    field=answer["lost"],
+                    source=source.name,
+                )
+            )
+        elif isinstance(answer.get("at"), int) and progress:
+            progress(answer["at"] / 1000, f"Writing {path.name}")
+        elif not ({"ready", "at"} & answer.keys()):
+            raise ChildFailed("garbage")
+
+
+def _share(progress, start):
+    """A ``progress`` for one half of the work."""
+    return None if progress is None else lambda fraction, text: progress(start + fraction / 2, text)

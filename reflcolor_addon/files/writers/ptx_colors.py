@@ -1,0 +1,98 @@
+"""The colors back into a copy of the PTX that a scan came from: every number of it stays as it is written."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import OutputError, ScanError
+from ..atomic import written_atomically
+from ..gate import opened
+from ..readers.grid import UnusableScan
+from ..readers.options import AS_IT_IS
+from ..readers.ptx import each_scan
+from ..readers.text_lines import TextLines
+
+_HEADER_LINES = 10
+_LINES = 1 << 18
+_COLORS = slice(4, 7)
+
+
+def write_ptx_colors(source, colors, path, *, options=AS_IT_IS, progress=None, cancelled=None):
+    """Write a copy of a PTX whose lines end with the colors that their scans were given.
+
+    Headers, coordinates and intensities are copied word by word, in the order of the file. Parameters and errors are
+    those of `write_e57_colors`; a scan that was given none keeps what it has.
+
+    Returns
+    -------
+    list of Message
+        Nothing: all of a PTX is kept.
+    """
+    source, path = Path(source), Path(path)
+    with opened(source, "a PTX file", error=ScanError) as file:
+        half = None if progress is None else (lambda fraction, text: progress(fraction / 2, text))
+        words = _words_of_lines(file, source, colors, path, options, half, cancelled)
+        file.seek(0)
+        half = None if progress is None else (lambda fraction, _: progress(0.5 + fraction / 2, f"Writing {path.name}"))
+        lines = TextLines(file, source, progress=half, cancelled=cancelled)
+        with (
+            written_atomically(path) as temporary,
+            temporary.open("w", encoding="latin-1", newline="\n") as made,
+        ):
+            for rgb in words:
+                _copy_scan(lines, made, rgb)
+    return []
+
+
+def _words_of_lines(file, source, colors, path, options, progress, cancelled):
+    """For every scan of the file (N, 3) uint8 of its lines; the number of them for one that keeps its own colors."""
+    found, number = [], -1
+    for scan, order, cells in each_scan(file, source, options=options, progress=progress, cancelled=cancelled):
+        unusable = isinstance(scan, UnusableScan)
+        number += not unusable
+        rgb = None if unusable else colors.get(number)
+        if rgb is None:
+            found.append(None)
+            continue
+        if rgb.shape[:2] != scan.shape:
+            raise OutputError(
+                "{file}: {source} is not the file any more that its scans were read from", file=path, source=source.name
+            )
+        there = cells >= 0
+        pixels = np.full(len(cells), -1, np.int64)
+        pixels[there] = order.pixels(*np.divmod(cells[there], order.stored[1]))
+        known = (pixels >= 0) & scan.valid.ravel()[pixels]
+        words = np.zeros((len(cells), 3), np.uint8)
+        words[known] = rgb.reshape(-1, 3)[pixels[known]]
+        found.append(words)
+    return found
+
+
+def _copy_scan(lines, made, rgb):
+    """Copy a header and the lines of points behind it."""
+    header = []
+    while len(header) < _HEADER_LINES:
+        line = lines.next_line()
+        if line is None:
+            return
+        header.append(line)
+    columns, rows = (int(float(word)) for word in header[:2])
+    if rgb is not None and len(rgb) < columns * rows:
+        # Of a file that is cut short the whole columns.
+        columns = len(rgb) // rows
+        header[0] = str(columns)
+    made.write("\n".join(header) + "\n")
+    count, at = columns * rows, 0
+    while at < count and (chunk := lines.take(min(_LINES, count - at))):
+        chunk = [line for line in chunk if line and not line.isspace()]
+        if rgb is None:
+            made.writelines(f"{line.strip()}\n" for line in chunk)
+        else:
+            made.writelines(map(_colored, chunk, rgb[at : at + len(chunk)].tolist()))
+        at += len(chunk)
+
+
+def _colored(line, rgb):
+    words = line.split()
+    words[_COLORS] = map(str, rgb)
+    return " ".join(words) + "\n"
