@@ -9,13 +9,15 @@ from bpy_extras.io_utils import ExportHelper
 from ..reflcolor_addon.errors import OutputError, ScanError
 from ..reflcolor_addon.files.atomic import written_atomically
 from ..reflcolor_addon.files.writers import MESH_WRITERS
+from ..reflcolor_addon.files.writers.scans_back import SCAN_FILES, write_scans_back
 from .scene import polls
+from .scene.colored_scan import colored_scan_reader
 from .scene.object_surface import surface_of_object
-from .scene.texts import told
+from .scene.texts import shown, told
 from .scene.usd import write_usd
 from .window.jobs import JobOperator
 
-_SUFFIXES = (*MESH_WRITERS, ".usd")
+_SUFFIXES = (*MESH_WRITERS, ".usd", *SCAN_FILES)
 
 
 class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
@@ -38,6 +40,8 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
             ),
             (".glb", "glTF (GLB)", "For viewers on the web and game engines"),
             (".usd", "USD", "For film and visual effects"),
+            (".e57", "E57", "The scanned file with colors, if it is one: for CloudCompare, ReCap and Cyclone"),
+            (".ptx", "PTX", "The scanned file with colors, if it is one: for Cyclone and CloudCompare"),
         ),
     )
 
@@ -68,20 +72,29 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
                 if reason := polls.closed_mesh(obj):
                     raise ScanError("{object}: cannot be exported ({reason})", object=obj.name, reason=reason)
             # Blender's own exporter, which no thread may call: it is `finish` that does it.
-            return lambda _progress, _cancelled: path
+            return lambda _progress, _cancelled: (path, [])
+        if suffix in SCAN_FILES:
+            readers = [colored_scan_reader(obj) for obj in objects]
+            return lambda progress, cancelled: (
+                path,
+                write_scans_back([read() for read in readers], path, progress=progress, cancelled=cancelled),
+            )
         surfaces = [surface_of_object(context, obj) for obj in objects]
 
         def work(progress, cancelled):
             MESH_WRITERS[suffix](surfaces, path, progress=progress, cancelled=cancelled)
-            return path
+            return path, []
 
         return work
 
     def finish(self, context, result):
-        if result.suffix.lower() == ".usd":
-            with written_atomically(result) as temporary:
+        path, warnings = result
+        if path.suffix.lower() == ".usd":
+            with written_atomically(path) as temporary:
                 write_usd(context, polls.scan_objects(context), temporary)
-        self.report({"INFO"}, told("Exported {path}", path=result))
+        for warning in warnings:
+            self.report({"WARNING"}, shown(warning))
+        self.report({"INFO"}, told("Exported {path}", path=path))
 
     def draw(self, _context):
         layout = self.layout
@@ -92,7 +105,7 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
 
 def draw_menu(self, _context):
     """Entry of File > Export."""
-    self.layout.operator(REFLCOLOR_OT_export_scan.bl_idname, text="Colorized Laser Scan (.ply, .glb, .usd)")
+    self.layout.operator(REFLCOLOR_OT_export_scan.bl_idname, text="Colorized Laser Scan (.ply, .glb, .usd, .e57, .ptx)")
 
 
 classes = (REFLCOLOR_OT_export_scan,)

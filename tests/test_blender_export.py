@@ -80,6 +80,16 @@ def test_a_usd_has_the_colors_to_the_byte_and_the_scene_is_as_before(colorized, 
     assert obj.select_get() and bpy.context.active_object == obj
 
 
+@pytest.mark.parametrize("suffix", ["ptx", "e57"])
+def test_colors_go_back_into_a_scan_file(colorized, tmp_path, suffix):
+    bpy, scan = colorized
+    (back,) = read_scans(exported(bpy, tmp_path / f"made.{suffix}"))
+    np.testing.assert_array_equal(back.color[back.valid], srgb(bpy.context.active_object, "Colorized"))
+    # A copy of the PTX that it was imported from; an E57 is made of the mesh, in single precision.
+    np.testing.assert_allclose(back.points, scan.points, rtol=0, atol=1e-9 if suffix == "ptx" else 1e-5)
+    np.testing.assert_allclose(back.pose, scan.pose, atol=1e-9 if suffix == "ptx" else 1e-3)
+
+
 def test_what_was_edited_is_exported_as_it_is(colorized, tmp_path):
     bpy, scan = colorized
     obj = bpy.context.active_object

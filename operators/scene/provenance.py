@@ -37,6 +37,11 @@ def record_import(obj, scan, inputs, warnings=()):
     obj[_IMPORTED] = json.dumps({"scan": scan, "inputs": inputs, "warnings": list(warnings)})
 
 
+def import_record(obj):
+    """Return what `record_import` kept, as a dictionary; an empty one where there is none."""
+    return _read(obj, _IMPORTED)
+
+
 def record_photo(image, entry):
     """Keep which file an image was read from: its `input_entry`."""
     image[_PHOTO] = json.dumps(entry)

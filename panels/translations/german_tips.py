@@ -131,6 +131,12 @@ _EXPORT = {
     "Every return once, in the order of the scan's grid: for CloudCompare, MeshLab and scripts": (
         "Jede Messung einmal, in der Reihenfolge des Scanrasters: für CloudCompare, MeshLab und Skripte"
     ),
+    "The scanned file with colors, if it is one: for CloudCompare, ReCap and Cyclone": (
+        "Die gescannte Datei mit Farben, wenn sie eine ist: für CloudCompare, ReCap und Cyclone"
+    ),
+    "The scanned file with colors, if it is one: for Cyclone and CloudCompare": (
+        "Die gescannte Datei mit Farben, wenn sie eine ist: für Cyclone und CloudCompare"
+    ),
     "For film and visual effects": "Für Film und visuelle Effekte",
     "For viewers on the web and game engines": "Für Betrachter im Web und Spiele-Engines",
     "What to write; a suffix that is typed decides otherwise": (

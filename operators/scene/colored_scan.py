@@ -1,0 +1,68 @@
+"""A scan's object with the colors that it shows, to be written back into a scan file."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ...reflcolor_addon.errors import ReflcolorError, UsageError
+from ...reflcolor_addon.files.readers.options import AS_IT_IS, ReadOptions
+from ...reflcolor_addon.files.writers.scans_back import ColoredScan
+from ...reflcolor_addon.report.report import fingerprint
+from .provenance import import_record
+from .scan_object import SHIFT, colors_of, grid_indices, scan_reader, shown_in_renders
+
+
+def colored_scan_reader(obj):
+    """Return a function that makes the ColoredScan of an object; it touches no bpy, a thread may call it.
+
+    The scan's file is named where it is still what the object was made from.
+
+    Raises
+    ------
+    ScanError
+        If the mesh has lost the attributes that it takes.
+    """
+    read_scan, colors, place = scan_reader(obj), colors_of(obj, shown_in_renders(obj)), grid_indices(obj)
+    record, shape = import_record(obj), (obj.reflcolor.rows, obj.reflcolor.cols)
+    shift = np.array(obj.get(SHIFT, (0, 0, 0)), np.float64)
+
+    def read():
+        rgb = np.zeros((*shape, 3), np.uint8)
+        rgb[place] = colors
+        entry = record.get("scan", {})
+        source, options = _source(record), _options(entry)
+        known = source is not None and options is not None and isinstance(entry.get("index"), int)
+        scan = read_scan()
+        pose = scan.pose.copy()
+        pose[:3, 3] += shift
+        return ColoredScan(
+            scan=replace(scan, pose=pose),
+            rgb=rgb,
+            source=source if known else None,
+            index=entry.get("index") if known else None,
+            options=options if known else AS_IT_IS,
+        )
+
+    return read
+
+
+def _source(record):
+    """The scan's file, if it is there as it was; None else."""
+    inputs = [entry for entry in record.get("inputs", []) if entry.get("role") == "scan"]
+    try:
+        unchanged = len(inputs) == 1 and fingerprint(inputs[0]["path"])["sha256"] == inputs[0]["sha256"]
+    except (ReflcolorError, KeyError):
+        return None
+    return Path(inputs[0]["path"]) if unchanged else None
+
+
+def _options(entry):
+    """The ReadOptions that an import was made with; None where the record makes no sense."""
+    given = dict(entry.get("reading", {})) | {f"flip_{way}": True for way in entry.get("flipped", [])}
+    if given.get("position") is not None:
+        given["position"] = tuple(given["position"])
+    try:
+        return ReadOptions(**given)
+    except (UsageError, TypeError):
+        return None
