@@ -349,7 +349,7 @@ def test_on_windows_a_child_starts_without_a_window_and_opens_files_by_name(wind
     assert options["creationflags"] == 0x08000000
     assert not options.keys() & {"pass_fds", "start_new_session"}
     monkeypatch.delattr(os, "memfd_create", raising=False)
-    number, shown = e57_columns._shared(64)
+    number, shown = e57_columns.shared_file(64)
     try:
         assert Path(shown).stat().st_size == 64
     finally:
