@@ -74,14 +74,18 @@ def compile_library(wheel_platform, library):
         raise SystemExit(f"{wheel_platform}: the compiler failed\n{done.stderr.strip()}")
 
 
+def module_source(wheel_platform):
+    """The text of the module that says where the library is."""
+    module = (HERE / "reflcolor_kernel" / "__init__.py").read_text("utf-8")
+    return module.replace("@VERSION@", VERSION).replace("@LIBRARY@", TARGETS[wheel_platform][1])
+
+
 def pack_wheel(wheel_platform, library_bytes, directory):
     """Write one wheel and return its path; the bytes depend on nothing but the arguments."""
     _, library_name = TARGETS[wheel_platform]
-    module = (HERE / "reflcolor_kernel" / "__init__.py").read_text("utf-8")
-    module = module.replace("@VERSION@", VERSION).replace("@LIBRARY@", library_name)
     info = f"reflcolor_kernel-{VERSION}.dist-info"
     files = {
-        "reflcolor_kernel/__init__.py": module.encode(),
+        "reflcolor_kernel/__init__.py": module_source(wheel_platform).encode(),
         f"reflcolor_kernel/{library_name}": library_bytes,
         f"{info}/METADATA": (
             f"Metadata-Version: 2.1\nName: reflcolor_kernel\nVersion: {VERSION}\n"

@@ -14,6 +14,7 @@ from .matching import draw_matches, match_photos, match_seeds
 from .scan.scan import Scan
 from .seeds.seeds import Seeds
 from .settings import Settings
+from .version import __version__
 
 __all__ = [
     "Cancelled",
@@ -28,6 +29,7 @@ __all__ = [
     "SeedsError",
     "Settings",
     "SettingsError",
+    "__version__",
     "colorize",
     "draw_matches",
     "evaluate",

@@ -1,13 +1,20 @@
-"""``python -m reflcolor_addon``: the command line without Blender."""
+"""``python -m reflcolor_addon``, or ``reflcolor`` where the package is installed: the command line without Blender."""
 
 import sys
 
-if __name__ == "__main__":
-    try:
-        from .cli.main import main
 
-        status = main(sys.argv[1:])
+def main():
+    """Run the command line and end with its exit status."""
+    try:
+        from .cli.main import main as run
+
+        prog = "python -m reflcolor_addon" if sys.argv[0].endswith("__main__.py") else "reflcolor"
+        status = run(sys.argv[1:], prog=prog)
     except KeyboardInterrupt:  # before the command line listens for it
         print("error: interrupted", file=sys.stderr)
         status = 130
     sys.exit(status)
+
+
+if __name__ == "__main__":
+    main()

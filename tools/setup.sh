@@ -23,9 +23,15 @@ if [ -n "${PYTHON:-}" ] && [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$(checksum)
     exit 0
 fi
 
-echo "setup: making $venv with $("$python" -V)"
+version_of() { "$1" -c 'import sys; print(sys.version)' 2>/dev/null; }
 rm -f "$stamp"
-"$python" -m venv --clear "$venv"
+if [ -n "$(version_of "$python")" ] && [ "$(version_of "$venv/bin/python")" = "$(version_of "$python")" ]; then
+    # Only what the lock has changed is installed.
+    echo "setup: bringing $venv up to date"
+else
+    echo "setup: making $venv with $("$python" -V)"
+    "$python" -m venv --clear "$venv"
+fi
 # The lock names every file that may be installed by its hash and holds every dependency that is used.
 "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --require-hashes --only-binary=:all: \
     --requirement "$lock"

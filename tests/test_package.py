@@ -1,0 +1,64 @@
+"""The package for Python without Blender, as `pip install .` builds it."""
+
+import os
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+from small_scans import random_scan
+
+from reflcolor_addon import Seeds, __version__
+from reflcolor_addon.files.writers import write_ptx
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """A folder with what the wheel installs."""
+    folder = tmp_path_factory.mktemp("package")
+    command = [sys.executable, "-m", "pip", "wheel", "--quiet", "--disable-pip-version-check", "--no-build-isolation"]
+    command += ["--no-deps", "--no-index", "--wheel-dir", str(folder), str(ROOT)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    (wheel,) = folder.glob("reflcolor-*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(folder / "site")
+    return folder / "site"
+
+
+def run(installed, *arguments, cwd):
+    """Python with the package in place of the sources; bpy cannot be imported, nor another build of the kernel."""
+    (installed / "bpy.py").write_text("raise ImportError('no Blender here')")
+    line = [sys.executable, "-W", "error", "-P", *arguments]
+    environment = os.environ | {"PYTHONPATH": str(installed)}
+    return subprocess.run(line, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
+
+
+def test_the_examples_of_the_readme_run_with_the_native_kernel(installed, tmp_path):
+    write_ptx(random_scan(shape=(20, 30)), tmp_path / "garage.ptx")
+    Seeds([1, 15], [2, 20], [[200, 80, 40], [20, 80, 220]]).save(tmp_path / "garage.seeds.json")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
+    example += "\nimport reflcolor_addon, reflcolor_kernel; print(reflcolor_addon.__file__, reflcolor_kernel.__file__)"
+    example += "\nprint(result.method['engine'], result.rgb.shape, reflcolor_addon.__version__)"
+    done = run(installed, "-c", example, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    places, result = done.stdout.strip().splitlines()[-2:]
+    assert all(place.startswith(str(installed)) for place in places.split())
+    assert re.fullmatch(rf"reflcolor kernel, interface \d+ \(20, 30, 3\) {re.escape(__version__)}", result)
+
+
+def test_the_command_line_runs_as_a_program(installed, tmp_path):
+    entry = (next(installed.glob("*.dist-info")) / "entry_points.txt").read_text()
+    assert "reflcolor = reflcolor_addon.__main__:main" in entry
+    done = run(installed, "-m", "reflcolor_addon", "--version", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (0, f"reflcolor {__version__}\n")
+
+
+def test_the_package_says_that_it_is_typed_and_brings_its_licence(installed):
+    assert (installed / "reflcolor_addon" / "py.typed").is_file()
+    assert next(installed.glob("*.dist-info/licenses/LICENSE")).is_file()
