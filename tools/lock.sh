@@ -12,7 +12,7 @@ PYTHON=$(tools/find_python.sh)
 [ -x "$VENV/bin/uv" ] || { "$PYTHON" -m venv "$VENV" && "$VENV/bin/python" -m pip install --quiet "uv==$UV_VERSION"; }
 
 # scikit-image declares these for its reading, writing and graph modules, which nobody here imports.
-unused="--no-emit-package imageio --no-emit-package networkx --no-emit-package pillow --no-emit-package tifffile"
+unused="--no-emit-package imageio --no-emit-package networkx --no-emit-package pillow"
 
 lock() { # OUTPUT [ARGUMENT]...
     output=$1
@@ -22,7 +22,7 @@ lock() { # OUTPUT [ARGUMENT]...
         --override requirements/numpy.in $unused --output-file "$output" "$@"
 }
 
-lock requirements/wheels.txt --no-emit-package numpy requirements/wheels.in "$@"
+lock requirements/wheels.txt --no-emit-package numpy --no-emit-package tifffile requirements/wheels.in "$@"
 lock requirements/dev.txt --constraints requirements/wheels.txt requirements/wheels.in requirements/numpy.in requirements/dev.in "$@"
 # The newest Blender beside the LTS ones: bpy alone, into a folder of its own.
 "$VENV/bin/uv" pip compile --quiet --python-version 3.13 --universal --no-deps --generate-hashes --no-header \

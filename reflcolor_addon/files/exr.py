@@ -8,13 +8,15 @@ import numpy as np
 
 from ..errors import ImageError
 from .gate import contents
+from .image_size import require_size
 
 _MAGIC = b"\x76\x2f\x31\x01"
 _TILED, _DEEP, _MULTIPART = 0x200, 0x800, 0x1000
 _TYPES = (np.dtype("<u4"), np.dtype("<f2"), np.dtype("<f4"))
 _COMPRESSIONS = ("NONE", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB")
 _ROWS_PER_CHUNK = {"NONE": 1, "RLE": 1, "ZIPS": 1, "ZIP": 16}
-_MAX_PIXELS = 2**30
+# Bytes that a byte of a compressed picture can become at most.
+_MOST_UNPACKED = 1100
 _LARGEST_FILE = 1 << 36
 
 
@@ -62,24 +64,22 @@ def _channels(data, name):
     flags, attributes, at = _header(data)
     for flag, kind in ((_TILED, "tiled"), (_DEEP, "deep"), (_MULTIPART, "in several parts")):
         if flags & flag:
-            raise ImageError(f"{name}: is {kind}, expected an EXR of one part in scan lines")
+            raise ImageError("{file}: is {kind}, expected an EXR of one part in scan lines", file=name, kind=kind)
     number = attributes["compression"][0]
     compression = _COMPRESSIONS[number] if number < len(_COMPRESSIONS) else f"number {number}"
     if compression not in _ROWS_PER_CHUNK:
-        raise ImageError(f"{name}: compressed with {compression}, expected ZIP or none: save it so")
+        raise ImageError(
+            "{file}: compressed with {found}, expected ZIP or none: save it so", file=name, found=compression
+        )
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
-    if width < 1 or height < 1 or width * height > _MAX_PIXELS:
-        raise ImageError(f"{name}: claims to be {width} x {height} pixels, expected 1 to {_MAX_PIXELS:,} in all")
     listed = _channel_list(attributes["channels"])
+    require_size(width, height, sum(dtype.itemsize for _, dtype in listed), name, most=_MOST_UNPACKED * len(data))
     per_chunk = _ROWS_PER_CHUNK[compression]
     offsets = np.frombuffer(data, "<u8", count=-(-height // per_chunk), offset=at)
     row_size = width * sum(dtype.itemsize for _, dtype in listed)
 
-    # A compressed picture is at most about a thousand times its file; what claims more is damaged.
-    if height * row_size > 1100 * len(data):
-        raise ImageError(f"{name}: claims to be {width} x {height} pixels, more than the file can hold")
-    channels = {name: np.zeros((height, width), np.float32) for name, _ in listed}
+    channels = {channel: np.zeros((height, width), np.float32) for channel, _ in listed}
     for offset in offsets.tolist():
         y, size = struct.unpack_from("<ii", data, offset)
         first = y - top
@@ -90,9 +90,9 @@ def _channels(data, name):
         block = packed if size == rows * row_size else _unpacked(packed, compression, rows * row_size)
         block = np.frombuffer(block, np.uint8, count=rows * row_size).reshape(rows, row_size)
         start = 0
-        for name, dtype in listed:
+        for channel, dtype in listed:
             end = start + width * dtype.itemsize
-            channels[name][first : first + rows] = np.ascontiguousarray(block[:, start:end]).view(dtype)
+            channels[channel][first : first + rows] = np.ascontiguousarray(block[:, start:end]).view(dtype)
             start = end
     return channels
 
@@ -118,7 +118,7 @@ def _channel_list(listing):
         name, at = _text(listing, at)
         kind, _linear, x_sampling, y_sampling = struct.unpack_from("<4i", listing, at)
         if (x_sampling, y_sampling) != (1, 1):
-            raise ImageError(f"channel {name} of an EXR is subsampled, expected a value for every pixel")
+            raise ImageError("channel {name} of an EXR is subsampled, expected a value for every pixel", name=name)
         channels.append((name, _TYPES[kind]))
         at += 16
     return channels

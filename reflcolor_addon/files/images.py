@@ -9,15 +9,15 @@ from ..messages import Message
 from ..srgb import linear_to_srgb8
 from .atomic import written_atomically
 from .color_profiles import embedded_profile
-from .exr import exr_channels, is_exr
+from .exr import exr_channels
 from .gate import contents
+from .image_headers import EXPECTED, image_header
 from .native_noise import quiet_on_failure
+from .tiff import tiff_pixels, upright
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp", ".exr")
 """Image files that can be opened; for file dialogs."""
 
-_PNG, _PNG_WITH_ALPHA = b"\x89PNG\r\n\x1a\n", (4, 6)
-_EXPECTED = "an image (PNG, JPEG, TIFF, WebP, BMP or EXR)"
 _LARGEST_FILE = 1 << 32
 
 
@@ -27,8 +27,8 @@ def read_image(path, warnings=None, *, cancelled=None):
     Parameters
     ----------
     path : path-like
-        Of any name on any platform. Its EXIF orientation is honored; an alpha channel is dropped, but what it makes
-        invisible in a PNG is black; gray becomes three equal channels, 16 bits are scaled to 8, and linear
+        Of any name on any platform. Its orientation is honored; an alpha channel is dropped, but what it makes
+        invisible in a PNG or TIFF is black; gray becomes three equal channels, 16 bits are scaled to 8, and linear
         floating-point colors (EXR, float TIFF) are sRGB encoded. Colors in another space (Display P3, Adobe RGB) are
         converted, if the file's ICC profile is one of a matrix and curves.
     warnings : list, optional
@@ -44,34 +44,60 @@ def read_image(path, warnings=None, *, cancelled=None):
     ImageError
         If there is no such file, or it is no image or a broken one.
     """
+    data, header = _opened(path, cancelled)
+    name = Path(path).name
+    if header is None:
+        return _srgb_of_light(_color_of_exr(exr_channels(data, name), name))
+    values, alpha = _pixels(data, header, name)
+    rgb = _eight_bit_colors(values, name)
+    if alpha is not None:
+        rgb[alpha == 0] = 0
+    if header.layout is not None:
+        rgb = upright(rgb, header.layout.orientation)
+    return rgb if values.dtype.kind == "f" else _in_srgb(rgb, data, name, warnings)
+
+
+def _opened(path, cancelled):
+    """The bytes of an image file and its header, which is None for an EXR."""
+    data = contents(path, EXPECTED, error=ImageError, most=_LARGEST_FILE, cancelled=cancelled)
+    return data, image_header(data, Path(path).name)
+
+
+def _pixels(data, header, name):
+    """(H, W) or (H, W, 3) values, in RGB, and the opacity or None; of all kinds but EXR."""
     import cv2
 
-    path = Path(path)
-    data = contents(path, _EXPECTED, error=ImageError, most=_LARGEST_FILE, cancelled=cancelled)
-    if is_exr(data):
-        return _srgb_of_light(_color_of_exr(exr_channels(data, path.name), path))
-    image = _decoded(path, data, cv2.IMREAD_COLOR | cv2.IMREAD_ANYDEPTH)
-    cv2.cvtColor(image, cv2.COLOR_BGR2RGB, dst=image)
-    if data.startswith(_PNG) and data[25] in _PNG_WITH_ALPHA:
-        alpha = _decoded(path, data, cv2.IMREAD_UNCHANGED)[..., -1]
-        if alpha.shape == image.shape[:2]:
-            image[alpha == 0] = 0
-    if image.dtype == np.uint16:
-        image = ((np.arange(65536) * 255 + 32767) // 65535).astype(np.uint8)[image]
-    if image.dtype == np.uint8:
-        return _in_srgb(image, data, path, warnings)
-    if image.dtype.kind == "f":
-        return _srgb_of_light(image)
-    raise ImageError(f"{path.name}: its pixels are {image.dtype}, expected 8 or 16 bits or floating point")
+    if header.layout is not None:
+        return tiff_pixels(data, header.layout, name, lambda part: _decoded(part, cv2.IMREAD_UNCHANGED, name))
+    if header.has_alpha:
+        image = _decoded(data, cv2.IMREAD_UNCHANGED, name)
+        return cv2.cvtColor(image, cv2.COLOR_BGRA2RGB), image[..., 3]
+    image = _decoded(data, cv2.IMREAD_COLOR | cv2.IMREAD_ANYDEPTH, name)
+    return cv2.cvtColor(image, cv2.COLOR_BGR2RGB, dst=image), None
 
 
-def _in_srgb(image, data, path, warnings):
+def _eight_bit_colors(values, name):
+    """(H, W, 3) uint8 of colors of any kind; floating point is linear light."""
+    if values.ndim == 2:
+        values = np.repeat(values[..., None], 3, axis=-1)
+    if values.dtype == np.uint8:
+        return np.ascontiguousarray(values)
+    if values.dtype == np.uint16:
+        return ((np.arange(65536) * 255 + 32767) // 65535).astype(np.uint8)[values]
+    if values.dtype.kind == "u":
+        return np.rint(values * (255 / np.iinfo(values.dtype).max)).astype(np.uint8)
+    if values.dtype.kind == "f":
+        return _srgb_of_light(values)
+    raise ImageError("{file}: its samples are signed, expected colors from 0 on", file=name)
+
+
+def _in_srgb(image, data, name, warnings):
     profile = embedded_profile(data)
     if profile is None:
         return image
     if not profile.known and warnings is not None:
         text = "{file}: its color profile{name} is one of tables, which is not followed; its colors are taken as sRGB"
-        warnings.append(Message(text, file=path.name, name=f" ({profile.name})" if profile.name else ""))
+        warnings.append(Message(text, file=name, name=f" ({profile.name})" if profile.name else ""))
     return profile.to_srgb(image)
 
 
@@ -104,19 +130,23 @@ def read_measured(path, *, cancelled=None):
     """
     import cv2
 
-    path = Path(path)
-    data = contents(path, _EXPECTED, error=ImageError, most=_LARGEST_FILE, cancelled=cancelled)
-    if is_exr(data):
-        return _measured_of_exr(exr_channels(data, path.name), path)
-    image = _decoded(path, data, cv2.IMREAD_UNCHANGED)
-    if image.ndim == 2:
-        return image, None
-    opaque = image[..., -1] != 0 if image.shape[2] in (2, 4) else None
-    colors = image[..., : image.shape[2] - (opaque is not None)]
-    seen = colors if opaque is None else colors[opaque]
-    if not (seen == seen[..., :1]).all():
-        raise ImageError(f"{path.name}: its color channels differ, expected a gray image with one value per pixel")
-    return np.ascontiguousarray(colors[..., 0]), opaque
+    data, header = _opened(path, cancelled)
+    name = Path(path).name
+    if header is None:
+        return _measured_of_exr(exr_channels(data, name), name)
+    if header.has_alpha or header.layout is not None:
+        values, alpha = _pixels(data, header, name)
+    else:
+        values, alpha = _decoded(data, cv2.IMREAD_UNCHANGED, name), None
+    opaque = None if alpha is None else alpha != 0
+    if values.ndim == 3:
+        seen = values if opaque is None else values[opaque]
+        if not (seen == seen[..., :1]).all():
+            raise ImageError(
+                "{file}: its color channels differ, expected a gray image with one value per pixel", file=name
+            )
+        values = values[..., 0]
+    return np.ascontiguousarray(values), opaque
 
 
 def write_png(path, image):
@@ -150,55 +180,50 @@ def write_png(path, image):
         temporary.write_bytes(data)
 
 
-def _decoded(path, data, flags):
+def _decoded(data, flags, name):
     # Decoding from memory: OpenCV's own file opening knows no non-ASCII paths on Windows.
     import cv2
 
-    image, reason = None, None
+    image = None
     try:
         with quiet_on_failure():
             image = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
             if image is None:
-                raise ImageError
-    except ImageError:
-        if data[4:12] in (b"ftypheic", b"ftypheix", b"ftypmif1"):
-            reason = f"is a HEIC photo, which is not read; save it as JPEG or PNG ({_EXPECTED})"
-        else:
-            reason = f"is not an image that can be read, or is cut short; {_EXPECTED}"
-    except MemoryError:
-        reason = "does not fit into memory"
+                raise ImageError("{file}: cannot be decoded: it is damaged or cut short", file=name)
     except cv2.error as error:
-        reason = f"cannot be decoded ({error.err.strip() or 'unknown error'})"
-        if "CV_IO_MAX_IMAGE" in error.err:
-            reason = "has more than 1,073,741,824 pixels or a side longer than 1,048,576; make it smaller"
-    if reason:
-        raise ImageError(f"{path.name}: {reason}")
+        raise ImageError(
+            "{file}: cannot be decoded ({reason})", file=name, reason=error.err.strip() or "unknown error"
+        ) from None
+    except MemoryError:
+        raise ImageError("{file}: does not fit into memory", file=name) from None
     return image
 
 
-def _color_of_exr(channels, path):
+def _color_of_exr(channels, name):
     """(H, W, 3) from R, G, B, or from Y, of the first layer that has them."""
-    for name in channels:
-        layer, _, channel = name.rpartition(".")
+    for channel_name in channels:
+        layer, _, channel = channel_name.rpartition(".")
         prefix = f"{layer}." if layer else ""
         if channel == "R" and all(prefix + other in channels for other in "GB"):
             return np.stack([channels[prefix + color] for color in "RGB"], axis=-1)
         if channel in ("Y", "V") and prefix + "R" not in channels:
-            return np.repeat(channels[name][..., None], 3, axis=-1)
-    raise ImageError(f"{path.name}: holds no R, G, B or Y, found {', '.join(channels)}")
+            return np.repeat(channels[channel_name][..., None], 3, axis=-1)
+    raise ImageError("{file}: holds no R, G, B or Y, found {found}", file=name, found=", ".join(channels))
 
 
-def _measured_of_exr(channels, path):
+def _measured_of_exr(channels, name):
     """The one channel there is, or the depth, or three equal colors."""
-    alpha = next((channels[name] for name in channels if name.rpartition(".")[2] == "A"), None)
-    values = {name: channel for name, channel in channels.items() if name.rpartition(".")[2] != "A"}
-    depth = [name for name in values if name.rpartition(".")[2] in ("Z", "Depth", "depth")]
+    alpha = next((channels[key] for key in channels if key.rpartition(".")[2] == "A"), None)
+    values = {key: channel for key, channel in channels.items() if key.rpartition(".")[2] != "A"}
+    depth = [key for key in values if key.rpartition(".")[2] in ("Z", "Depth", "depth")]
     names = depth or list(values)
     if not names:
-        raise ImageError(f"{path.name}: holds no channel but alpha, expected one value per pixel")
+        raise ImageError("{file}: holds no channel but alpha, expected one value per pixel", file=name)
     first = values[names[0]]
-    if any(not np.array_equal(first, values[name], equal_nan=True) for name in names[1:]):
-        raise ImageError(f"{path.name}: its channels {', '.join(names)} differ, expected one value per pixel")
+    if any(not np.array_equal(first, values[key], equal_nan=True) for key in names[1:]):
+        raise ImageError(
+            "{file}: its channels {found} differ, expected one value per pixel", file=name, found=", ".join(names)
+        )
     return first, None if alpha is None else alpha != 0
 
 
