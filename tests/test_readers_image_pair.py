@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from reflcolor_addon.batch.paths import scan_files
 from reflcolor_addon.errors import Cancelled, OutputError, ScanError
-from reflcolor_addon.files.readers import read_scans, scan_json
+from reflcolor_addon.files.readers import ReadOptions, read_scans, scan_json
 from reflcolor_addon.files.readers.scan_json import write_scan_json
 
 HEIGHT, WIDTH = 8, 10
@@ -192,7 +193,7 @@ def test_gray_colors_are_no_colors(folder):
         ({"range_scale": None, "range_table": [[1, 1], [0, 2]]}, "range_table: expected a list of at least two"),
         ({"color_order": "cmyk"}, 'color_order: expected "rgb" or "bgr", found "cmyk"'),
         ({"model": "pinhole"}, 'model: expected an object with a type, found "pinhole"'),
-        ({"model": {"type": "fisheye"}}, 'model.type: expected "pinhole" or "spherical", found "fisheye"'),
+        ({"model": {"type": "fisheye"}}, 'model.type: expected "pinhole" or "spherical" or "beams", found "fisheye"'),
         ({"model": {**PINHOLE, "fx": "x"}}, 'model.fx: expected a number from 0.001 to 10,000,000, found "x"'),
         ({"model": {**PINHOLE, "fy": -1}}, "model.fy: expected a number from 0.001 to 10,000,000, found -1"),
         ({"model": {"type": "pinhole", "fx": 1, "fy": 1, "cx": 1}}, "model.cy: is missing"),
@@ -311,3 +312,89 @@ def test_any_value_of_any_key_is_accepted_or_refused_in_one_line(key, value, ins
         scan_json.check_description(content, "garage.scan.json")
     except ScanError as error:
         assert "\n" not in str(error)
+
+
+@pytest.mark.parametrize("many", [False, True], ids=["far from all others", "far more often than others"])
+def test_the_greatest_code_of_16_bits_is_no_return_where_it_is_none(folder, many):
+    depth = DEPTH.copy()
+    if many:
+        # A sensor that measures up to the end of its scale, and saturates there.
+        depth = (65534 - np.arange(HEIGHT * WIDTH, dtype=np.uint16)).reshape(HEIGHT, WIDTH)
+        depth[2:5] = 65535
+    else:
+        depth[1, 2:5] = 65535
+    save(folder / "depth.png", depth)
+    scan = read(folder)
+    np.testing.assert_array_equal(scan.valid, depth != 65535)
+    assert "depth.png holds 65535 in" in scan.warnings[0]
+
+
+def test_a_range_that_was_stretched_to_16_bits_keeps_its_farthest_return(folder):
+    depth = (65535 - 300 * np.arange(HEIGHT * WIDTH)[::-1]).astype(np.uint16).reshape(HEIGHT, WIDTH)
+    save(folder / "depth.png", depth)
+    scan = read(folder)
+    assert scan.valid.all() and scan.warnings == ()
+
+
+def test_a_pose_in_millimetres_keeps_the_points_and_is_told(folder):
+    pose = np.eye(4) * [0.001, 0.001, 0.001, 1]
+    scan = read(folder, pose=pose.tolist())
+    np.testing.assert_allclose(scan.points, read(folder).points)
+    np.testing.assert_allclose(scan.pose, np.eye(4))
+    assert "scales by 0.001" in scan.warnings[0] and "left out" in scan.warnings[0]
+
+
+BEAMS = {"type": "beams", "azimuth_deg": [-180, 180], "elevation_deg": [20, 9, 4, 3, 2.5, 2, -1, -16]}
+
+
+@pytest.mark.parametrize("offset", [None, [1.5, -0.5, 0, 0.25, 3, -3, 0, 0]])
+def test_beams_have_elevations_and_azimuths_of_their_own(folder, offset):
+    model = BEAMS if offset is None else {**BEAMS, "azimuth_offset_deg": offset}
+    scan = read(folder, model=model)
+    x, y, z = np.moveaxis(scan.points, -1, 0)
+    elevation = np.degrees(np.arctan2(z, np.hypot(x, y)))
+    np.testing.assert_allclose(elevation, np.broadcast_to(np.array(BEAMS["elevation_deg"])[:, None], elevation.shape))
+    expected = np.linspace(-162, 162, WIDTH) + np.zeros((HEIGHT, 1)) + np.array(offset or [0] * HEIGHT)[:, None]
+    np.testing.assert_allclose(np.degrees(np.arctan2(x, y)), expected, atol=1e-9)
+    np.testing.assert_allclose(scan.range, DEPTH * 0.001)
+    assert scan.full_turn
+
+
+@pytest.mark.parametrize(
+    ("model", "said"),
+    [
+        ({**BEAMS, "elevation_deg": [1, 2, 3]}, "model.elevation_deg: has 3 numbers, expected 8"),
+        ({**BEAMS, "azimuth_offset_deg": [1]}, "model.azimuth_offset_deg: expected as many numbers"),
+        ({**BEAMS, "elevation_deg": 5}, "model.elevation_deg: expected a list of degrees"),
+    ],
+)
+def test_beams_that_do_not_fit_are_told(folder, model, said):
+    assert said in failure(folder, model=model)
+
+
+def test_arrays_stand_for_images(folder):
+    np.savez(folder / "frame.npz", range=DEPTH.astype(np.uint32), signal=REFLECTANCE, rgb=COLOR)
+    scan = read(folder, range="frame.npz#range", reflectance="frame.npz#signal", color="frame.npz#rgb", model=BEAMS)
+    np.testing.assert_allclose(scan.range, DEPTH * 0.001)
+    np.testing.assert_array_equal(scan.reflectance, REFLECTANCE)
+    np.testing.assert_array_equal(scan.color, COLOR)
+    assert [path.name for path in scan_files(folder / "garage.scan.json")] == ["garage.scan.json", "frame.npz"]
+    assert "frame.npz: has no array depth" in failure(folder, range="frame.npz#depth")
+    assert "expected an array of rows x columns" in failure(folder, range="frame.npz#rgb")
+
+
+def test_a_spinning_lidars_frame_is_read(data_dir, tmp_path):
+    source = data_dir / "ouster" / "OS-1-128_v2.3.0_1024x10_lb_n3_scan0.npz"
+    (tmp_path / "frame.npz").write_bytes(source.read_bytes())
+    model = {"type": "beams", "azimuth_deg": [-180, 180], "elevation_deg": np.linspace(22, -22, 128).tolist()}
+    names = {"range": "frame.npz#range", "reflectance": "frame.npz#reflectivity"}
+    scan = read(tmp_path, model=model, **names)
+    assert scan.shape == (128, 1024) and scan.full_turn and 0.2 < scan.valid.mean() < 1
+
+
+@pytest.mark.parametrize("step", [2, 3])
+def test_every_other_row_and_column_can_be_left_out(folder, step):
+    path = folder / "garage.scan.json"
+    path.write_text(json.dumps(description()), "utf-8")
+    (scan,) = read_scans(path, options=ReadOptions(step=step))
+    np.testing.assert_array_equal(scan.reflectance, REFLECTANCE[::step, ::step])

@@ -28,8 +28,7 @@ def scan_files(path):
     except ScanError:
         # Its reader will say what is wrong with it.
         return [path]
-    names = (description.range, description.reflectance, description.color)
-    return [path, *(path.parent / name for name in names if name is not None)]
+    return [path, *(path.parent / name for name in description.files)]
 
 
 def photo_files(seeds, seeds_path, photos):

@@ -177,6 +177,20 @@ def flipped(scan, *, vertical=False, horizontal=False, turn_deg=0):
     )
 
 
+def thinned(scan, step):
+    """The same scan with only those rows and columns whose number is a multiple of a step."""
+    if step == 1:
+        return scan
+    every = slice(None, None, step), slice(None, None, step)
+    return replace(
+        scan,
+        points=scan.points[every],
+        reflectance=scan.reflectance[every],
+        valid=scan.valid[every],
+        color=None if scan.color is None else scan.color[every],
+    )
+
+
 def _sampled(points, valid):
     """Whole blocks of neighbors are not needed: every n-th row and column keeps order and sense."""
     steps = tuple(slice(None, None, max(1, size // _SAMPLES)) for size in valid.shape)

@@ -5,7 +5,7 @@ import numpy as np
 from ...errors import Cancelled, ImageError, ScanError
 from ...messages import Message
 from ...scan.limits import FARTHEST_M, STRONGEST
-from ...scan.orientation import flipped
+from ...scan.orientation import flipped, thinned
 from ...scan.scan import Scan
 from ..gate import beside
 from ..images import read_image, read_measured
@@ -13,10 +13,14 @@ from ..json_files import parse_json
 from ..memory import require_memory
 from .formats import Format
 from .grid import BYTES_PER_PIXEL
+from .numpy_arrays import array_of
 from .options import AS_IT_IS
-from .reflectance import gray_is_no_color
-from .scan_json import EXPECTED, LARGEST_FILE, check_description
+from .reflectance import told_apart
+from .scan_json import EXPECTED, LARGEST_FILE, check_description, file_and_array
+from .settle import scaled_by_pose
 
+_FULL = 65535
+_GAP, _NEAR = 655, 100
 _NOTHING_HIT_M = 1e6
 """Renderers write 1e10, or the largest number there is, where a ray meets nothing."""
 
@@ -59,6 +63,20 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     shape = values.shape
     require_memory(values.size * BYTES_PER_PIXEL, f"{path.name}: {shape[0]} x {shape[1]} pixels", error=ScanError)
     valid = np.isfinite(values) & (values != 0 if opaque is None else opaque)
+    name = description.name or path.name[: -len(".scan.json")] or path.name
+    warnings = []
+
+    def warn(template, **values):
+        warnings.append(Message("scan '{scan}': " + template, scan=name, **values))
+
+    if full := full_code(values, valid):
+        valid &= values != full
+        warn(
+            "{image} holds {code} in {count:,} pixels, far from all others: they were taken as no return",
+            image=description.range,
+            code=full,
+            count=np.count_nonzero(values == full),
+        )
     distance = np.where(valid, description.metres(values), 0.0)
     valid &= (distance > 0) & (distance < _NOTHING_HIT_M)
 
@@ -68,22 +86,27 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     reflectance = reflectance.astype(np.float32)
     valid &= np.abs(reflectance) < STRONGEST
 
-    color, warnings = None, []
-    name = description.name or path.name[: -len(".scan.json")] or path.name
+    color = None
     if description.color is not None:
         tell(0.6, description.color)
         color = image_of("color", description.color, read_image)
         _require_same_size(path, "color", description.color, color.shape[:2], shape)
         color = color[..., ::-1] if description.color_order == "bgr" else color
-        if gray_is_no_color(color, valid):
-            warnings.append(
-                Message(
-                    "scan '{scan}': its colors are gray (red = green = blue); taken as a scan without color", scan=name
-                )
-            )
-            color = None
     tell(0.8, path.name)
-    points = description.model.points(np.where(valid, distance, 0.0), description.range_type)
+    if valid.any():
+        reflectance, color = told_apart(reflectance, color, valid, warn)
+    try:
+        points = description.model.points(np.where(valid, distance, 0.0), description.range_type)
+    except ValueError as beams:
+        raise ScanError(
+            "{file}: model.elevation_deg: has {count} numbers, expected {rows}, one for each row of {image}",
+            file=path.name,
+            count=beams.args[0],
+            rows=shape[0],
+            image=description.range,
+        ) from None
+    pose = np.eye(4) if description.pose is None else description.pose
+    points, pose = scaled_by_pose(points, pose, valid, warn)
     valid &= (np.abs(points) < FARTHEST_M).all(axis=-1)
     if not valid.any():
         raise ScanError(
@@ -97,14 +120,29 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
         reflectance=np.where(valid, reflectance, np.float32(0)),
         valid=valid,
         color=color,
-        pose=np.eye(4) if description.pose is None else description.pose,
+        pose=pose,
         source=path,
         warnings=tuple(warnings),
     )
     vertical, horizontal = description.model.mirrored
     upright = flipped(scan, vertical=vertical, horizontal=horizontal)
     flips = {"vertical": options.flip_vertical, "horizontal": options.flip_horizontal}
-    return [flipped(upright, turn_deg=options.turn_deg, **flips)]
+    return [thinned(flipped(upright, turn_deg=options.turn_deg, **flips), options.step)]
+
+
+def full_code(values, valid):
+    """Return the greatest number that a 16-bit image can hold where it means no return; None where it does not.
+
+    It does where it is far from the next smaller value, or far more frequent: the sensor saw too far, or nothing.
+    """
+    if values.dtype != np.uint16:
+        return None
+    counts = np.bincount(values[valid], minlength=_FULL + 1)
+    others = np.flatnonzero(counts[:_FULL])
+    if not counts[_FULL] or not others.size:
+        return None
+    usual = np.median(counts[others[-_NEAR:]])
+    return _FULL if others[-1] < _FULL - _GAP or counts[_FULL] > max(10, 20 * usual) else None
 
 
 class _Images:
@@ -114,7 +152,8 @@ class _Images:
         self._path, self._outside, self._cancelled = path, outside, cancelled
 
     def __call__(self, key, image, read):
-        place = beside(self._path, image, outside=self._outside)
+        name, member = file_and_array(image)
+        place = beside(self._path, name, outside=self._outside)
         if place is None:
             raise ScanError(
                 "{file}: {key}: {image} lies outside of the folder of {file}; put it there, or allow outside files",
@@ -122,10 +161,25 @@ class _Images:
                 key=key,
                 image=image,
             )
+        if member is not None:
+            return _as_image(array_of(place, member), key, self._path)
         try:
             return read(place, cancelled=self._cancelled)
         except ImageError as error:
             raise ScanError("{file}: {key}: {problem}", file=self._path.name, key=key, problem=error.message) from None
+
+
+def _as_image(array, key, path):
+    """An array as what an image of that kind is read to."""
+    if key == "color" and array.ndim == 3 and array.shape[2] == 3 and array.dtype == np.uint8:
+        return array
+    if key == "color" or array.ndim != 2:
+        raise ScanError(
+            "{file}: {key}: expected an array of rows x columns, for colors of rows x columns x 3 of 8 bits",
+            file=path.name,
+            key=key,
+        )
+    return array, None
 
 
 def _require_same_size(path, key, image, shape, expected):

@@ -7,7 +7,7 @@ import numpy as np
 from ...errors import ScanError
 from ...scan.directions import directions
 from ...scan.limits import MOST_PIXELS
-from ..gate import size_of
+from ..gate import opened, size_of
 from .cloud import check_size, scan_of_columns
 from .formats import Format
 from .options import AS_IT_IS
@@ -34,6 +34,9 @@ def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, ca
         progress(0.6, f"Reading {path.name}")
     points = _points(arrays, path)
     shape = points.shape[:2] if points.ndim == 3 else None
+    mask = arrays.get("valid")
+    if mask is not None and mask.dtype == bool and mask.shape == points.shape[:-1]:
+        points[~mask] = 0.0
     columns = dict(zip("xyz", points.reshape(-1, points.shape[-1]).T[:3], strict=True))
     if points.shape[-1] > 3:
         columns["reflectance"] = points.reshape(-1, points.shape[-1])[:, 3]
@@ -44,6 +47,27 @@ def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, ca
         elif name in _COLORS and array.shape == (*size, 3):
             columns |= dict(zip(("red", "green", "blue"), array.reshape(-1, 3).T, strict=True))
     return [scan_of_columns(path, columns, options=options, shape=shape)]
+
+
+def array_of(path, member, cancelled=None):
+    """Return one array of a .npy or .npz by its name; the only one where no name is given.
+
+    Raises
+    ------
+    ScanError
+        In one line.
+    """
+    with opened(path, "NumPy arrays", error=ScanError) as file:
+        arrays = _arrays(file, path)
+    found = arrays.get(member.lower()) if member else next(iter(arrays.values()), None) if len(arrays) == 1 else None
+    if found is None or found.dtype.kind not in "fiu":
+        raise ScanError(
+            "{file}: has no array {member} of numbers, it holds {found}",
+            file=path.name,
+            member=member or "of its own",
+            found=", ".join(sorted(arrays)) or "nothing",
+        )
+    return found
 
 
 def _points(arrays, path):

@@ -15,7 +15,7 @@ from ...scan.limits import FARTHEST_M, STRONGEST
 from ...scan.scan import is_plausible
 from ..atomic import written_atomically
 from ..json_files import read_json
-from .sensor_models import DEPTH, RAY, Pinhole, Spherical
+from .sensor_models import DEPTH, RAY, Beams, Pinhole, Spherical
 
 FORMAT = "reflcolor-scan"
 VERSION = 1
@@ -28,6 +28,7 @@ _LONGEST_QUOTE = 60
 _SCALES = (1e-12, 1e6)
 _CAMERA = {"fx": (1e-3, 1e7), "fy": (1e-3, 1e7), "cx": (-1e7, 1e7), "cy": (-1e7, 1e7)}
 _BENT = 1e6
+_MOST_BEAMS = 65536
 _REQUIRED = ("range", "reflectance", "model")
 
 
@@ -40,7 +41,7 @@ class Description:
     range, reflectance : str
         Image files, relative to the description.
     color : str, optional
-    model : Pinhole or Spherical
+    model : Pinhole, Spherical or Beams
     range_scale, range_offset : float
         Metres = value * scale + offset. The scale may be missing where the image holds metres as floating point.
     range_table : (N, 2) float64, optional
@@ -57,7 +58,7 @@ class Description:
 
     range: str
     reflectance: str
-    model: Pinhole | Spherical
+    model: Pinhole | Spherical | Beams
     range_type: str
     color: str | None = None
     range_scale: float | None = None
@@ -67,11 +68,23 @@ class Description:
     name: str | None = None
     pose: np.ndarray | None = None
 
+    @property
+    def files(self):
+        """Names of the files that it names, each once; of an array in a file that of the file."""
+        named = filter(None, (self.range, self.reflectance, self.color))
+        return list(dict.fromkeys(file_and_array(name)[0] for name in named))
+
     def metres(self, values):
         """(H, W) float64 of (H, W) pixel values."""
         if self.range_table is not None:
             return np.interp(values, *self.range_table.T)
         return values.astype(np.float64) * (self.range_scale or 1.0) + self.range_offset
+
+
+def file_and_array(name):
+    """Return (file, array) of a name: ``frame.npz#range`` names an array in a file, any other a file alone."""
+    file, mark, array = name.partition("#")
+    return (file, array) if file.lower().endswith((".npz", ".npy")) and (mark or file == name) else (name, None)
 
 
 def load_description(path):
@@ -109,7 +122,9 @@ def write_scan_json(
     range_image, reflectance_image, color_image : path-like
     model : dict
         ``{"type": "pinhole", "fx", "fy", "cx", "cy"}`` in pixels, or
-        ``{"type": "spherical", "azimuth_deg": [left, right], "elevation_deg": [bottom, top]}``.
+        ``{"type": "spherical", "azimuth_deg": [left, right], "elevation_deg": [bottom, top]}``, or
+        ``{"type": "beams", "azimuth_deg": [left, right], "elevation_deg": [of each row], "azimuth_offset_deg": [of
+        each row]}``.
     range_scale, range_offset, range_table, range_type, color_order, name, pose : optional
         As in `Description`.
 
@@ -154,7 +169,7 @@ def check_description(content, file_name):
     check.keys(content, _KEYS, _REQUIRED)
     texts = {key: check.text(key, content[key]) for key in _TEXTS if key in content}
     model = check.model(content["model"])
-    choices = (RAY,) if isinstance(model, Spherical) else (DEPTH, RAY)
+    choices = (DEPTH, RAY) if isinstance(model, Pinhole) else (RAY,)
     texts["range_type"] = check.choice("range_type", texts.get("range_type", model.default_range_type), choices)
     check.choice("color_order", texts.get("color_order", "rgb"), ("rgb", "bgr"))
     numbers = {}
@@ -231,7 +246,9 @@ class _Check:
     def model(self, value):
         if not isinstance(value, dict):
             self.fail("model", "an object with a type", value)
-        kind = self.choice("model.type", value.get("type"), ("pinhole", "spherical"))
+        kind = self.choice("model.type", value.get("type"), ("pinhole", "spherical", "beams"))
+        if kind == "beams":
+            return self.beams(value)
         if kind == "spherical":
             names = ("azimuth_deg", "elevation_deg")
             self.keys(value, ("type", *names), names, "model.")
@@ -248,6 +265,25 @@ class _Check:
             **{key: self.number(f"model.{key}", value[key], *_CAMERA[key]) for key in names},
             distortion=tuple(self.number("model.distortion", number, -_BENT, _BENT) for number in lens),
         )
+
+    def beams(self, value):
+        names = ("azimuth_deg", "elevation_deg")
+        self.keys(value, ("type", *names, "azimuth_offset_deg"), names, "model.")
+        elevation = self.angles("model.elevation_deg", value["elevation_deg"], 90)
+        offset = self.angles("model.azimuth_offset_deg", value.get("azimuth_offset_deg", []), 180)
+        if not elevation or len(offset) not in (0, len(elevation)):
+            self.fail("model.azimuth_offset_deg", "as many numbers as elevation_deg has", len(offset))
+        return Beams(
+            azimuth_deg=self.span("model.azimuth_deg", value["azimuth_deg"], -720, 720, 360),
+            elevation_deg=elevation,
+            azimuth_offset_deg=offset,
+        )
+
+    def angles(self, key, value, most):
+        """A tuple of degrees, one for each row."""
+        if not isinstance(value, list) or len(value) > _MOST_BEAMS:
+            self.fail(key, "a list of degrees, one for each row", value)
+        return tuple(self.number(key, number, -most, most) for number in value)
 
     def table(self, value):
         expected = "a list of at least two [value, metres] with growing values"

@@ -77,6 +77,44 @@ class Spherical:
         )
 
 
+@dataclass(frozen=True, kw_only=True)
+class Beams:
+    """A spinning lidar: every row is a beam with an elevation of its own, and an azimuth that it is set off by.
+
+    Parameters
+    ----------
+    azimuth_deg : (left, right) of float
+        Outer edges of the image, from +Y to the right, as `Spherical` has them.
+    elevation_deg : tuple of float
+        Up, one for each row.
+    azimuth_offset_deg : tuple of float
+        To the right, one for each row; none where empty.
+    """
+
+    azimuth_deg: tuple[float, float]
+    elevation_deg: tuple[float, ...]
+    azimuth_offset_deg: tuple[float, ...] = ()
+
+    default_range_type = RAY
+
+    @property
+    def mirrored(self):
+        """(vertical, horizontal): True where the angles say that the image is stored upside down, or mirrored."""
+        return self.elevation_deg[-1] > self.elevation_deg[0], self.azimuth_deg[1] < self.azimuth_deg[0]
+
+    def points(self, distance, range_type):
+        """(H, W, 3) float64 of (H, W) lengths of the rays; ValueError where H is not the number of beams."""
+        height, width = distance.shape
+        if height != len(self.elevation_deg):
+            raise ValueError(len(self.elevation_deg))
+        offset = np.radians(self.azimuth_offset_deg or np.zeros(height))[:, None]
+        azimuth = _centers(*self.azimuth_deg, width) + offset
+        elevation = np.radians(self.elevation_deg)[:, None]
+        level = distance * np.cos(elevation)
+        height_above = np.broadcast_to(distance * np.sin(elevation), distance.shape)
+        return np.stack([level * np.sin(azimuth), level * np.cos(azimuth), height_above], axis=-1)
+
+
 def _undistorted(x_seen, y_seen, coefficients: tuple[float, ...]):
     """Solve the lens model for the ideal image coordinates; NaN where it has no solution, outside of its validity."""
     k1, k2, p1, p2, k3, k4, k5, k6 = (*coefficients, *[0.0] * (8 - len(coefficients)))

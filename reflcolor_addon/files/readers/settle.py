@@ -17,6 +17,9 @@ from .options import AUTO, UNITS
 _FARTHEST_RETURN_M = 20_000.0
 """No terrestrial scanner measures farther; points beyond are geo-referenced."""
 
+_NEAREST_M = 0.02
+"""Half of the returns are never nearer."""
+
 _SAMPLE = 1 << 17
 _NEARLY_UP = 0.7
 
@@ -95,12 +98,9 @@ class Settled:
 
     def _scale(self):
         """Bring the points, and with them the pose, to metres."""
-        scale = scale_of_pose(self.pose)
-        if scale != 1.0:
-            self._warn("its matrix scales by {scale:g}: its points are {scale:g} times as far away", scale=scale)
-            self.points *= scale
-            self.pose = self.pose.copy()
-            self.pose[:3, :3] /= scale
+        scale, before = scale_of_pose(self.pose), self.points
+        self.points, self.pose = scaled_by_pose(self.points, self.pose, self.valid, self._warn)
+        if self.points is not before:
             self._places = {name: place * scale for name, place in self._places.items()}
             self._origin = None if self._origin is None else self._origin * scale
         if self._options.unit != AUTO:
@@ -238,6 +238,35 @@ class Settled:
         """Least distance from the scanner, metres."""
         chosen = self._sample()
         return np.sqrt(np.einsum("ij,ij->i", chosen, chosen).min())
+
+
+def scaled_by_pose(points, pose, valid, warn):
+    """Return points and pose with an even scale of the pose put into the points, or left out where it makes no sense.
+
+    Parameters
+    ----------
+    points : (H, W, 3) float64
+    pose : (4, 4) float64
+    valid : (H, W) bool
+    warn : callable
+        Takes what `Message` takes.
+    """
+    scale = scale_of_pose(pose)
+    if scale == 1.0 or not valid.any():
+        return points, pose
+    pose = pose.copy()
+    pose[:3, :3] /= scale
+    seen = points[valid][:: max(1, np.count_nonzero(valid) // _SAMPLE)]
+    distance = float(np.median(np.sqrt(np.einsum("ij,ij->i", seen, seen))))
+    if not _NEAREST_M < distance * scale < _FARTHEST_RETURN_M and _NEAREST_M < distance < _FARTHEST_RETURN_M:
+        warn(
+            "its matrix scales by {scale:g}, which would put its points {distance:.3g} m away; the scale was left out",
+            scale=scale,
+            distance=distance * scale,
+        )
+        return points, pose
+    warn("its matrix scales by {scale:g}: its points are {scale:g} times as far away", scale=scale)
+    return points * scale, pose
 
 
 _SOURCES = {
