@@ -290,7 +290,9 @@ def test_points_in_world_coordinates_keep_their_place_beside_other_scans(blender
     for given in matched["scans"]:
         (scan,) = read_scans(tmp_path / f"{given.name}.ptx")
         found = (given.points + given.pose[:3, 3] + shift)[scan.valid]
-        np.testing.assert_allclose(found, scan.points[scan.valid], rtol=0, atol=2e-3)
+        world = (scan.points + scan.pose[:3, 3])[scan.valid]
+        np.testing.assert_allclose(world.mean(axis=0), far + 1000 * (given.name == "floor"), rtol=0, atol=5)
+        np.testing.assert_allclose(found, world, rtol=0, atol=2e-3)
         np.testing.assert_array_equal(given.pose[:3, :3], np.eye(3))
 
 

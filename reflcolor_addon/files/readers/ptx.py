@@ -156,7 +156,7 @@ def _read_scan(lines, first, *, after, options):
     room = (left + 1) // _SHORTEST_LINE
     short = count > room and (after or count > MOST_PIXELS or room < 2 * rows)
     if short:
-        error = lines.error(
+        announced = lines.error(
             "{columns} columns x {rows} rows announced, but the rest of the file ({left} bytes) has room for at most "
             "{most} points; it is cut short, or its header is wrong",
             number=header,
@@ -165,14 +165,14 @@ def _read_scan(lines, first, *, after, options):
             left=left,
             most=room,
         )
-        raise _CutShort(error)
+        raise _CutShort(announced)
     count = min(count, room)
     require_memory(count * BYTES_PER_PIXEL, f"{lines.path.name}: {columns} columns x {rows} rows", error=ScanError)
     body = _Body(lines, count)
     found = body.read()
     notes = body.notes()
     if found < columns * rows:
-        error = lines.error(
+        ended = lines.error(
             "the file ends after {at} of {count} points ({columns} columns x {rows} rows); it is cut short",
             at=found,
             count=columns * rows,
@@ -181,8 +181,8 @@ def _read_scan(lines, first, *, after, options):
         )
         # Of the only scan there is, what is whole is better than nothing.
         if after or found < 2 * rows:
-            raise _CutShort(error)
-        notes.append(Message("{reason}; what is whole of it was read", reason=error.message))
+            raise _CutShort(ended)
+        notes.append(Message("{reason}; what is whole of it was read", reason=ended.message))
     return {**_in_lines(body, found, columns, rows, notes), "placed": (position, axes, matrix), "warnings": notes}
 
 
