@@ -64,14 +64,15 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
             return
         add_values(obj, ERROR, np.nan_to_num(errors, nan=UNKNOWN))
         refresh_look(obj)
-        mean, percentile = (figures["color_alone"][f"ciede2000_{name}"] for name in ("mean", "p95"))
+        mean, percentile = (figures["as_is"][f"ciede2000_{name}"] for name in ("mean", "p95"))
         said = told(
-            "{name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of {count} vertices "
-            "(luminance apart)",
+            "{name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of {count} vertices; "
+            "with the true luminance {alone:.2f} in the mean",
             name=obj.name,
             mean=mean,
             percentile=percentile,
             count=figures["pixels"],
+            alone=figures["color_alone"]["ciede2000_mean"],
         )
         tell(self, obj, said, ())
 

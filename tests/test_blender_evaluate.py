@@ -52,7 +52,7 @@ def test_the_error_of_every_vertex_is_the_cores(colorized, scan_file):
 
 def test_mean_and_percentile_are_reported(colorized, scan_file, capfd):
     (scan,) = read_scans(scan_file)
-    figures = evaluate(colorize(scan, SEEDS).rgb, scan.color, scan.valid & scan.color.any(axis=-1))["color_alone"]
+    figures = evaluate(colorize(scan, SEEDS).rgb, scan.color, scan.valid & scan.color.any(axis=-1))["as_is"]
     colorized.ops.reflcolor.evaluate()
     found = values(colorized.context.active_object, "error")
     assert found[found >= 0].mean() == pytest.approx(figures["ciede2000_mean"], abs=0.1)

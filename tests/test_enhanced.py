@@ -8,7 +8,7 @@ from small_scans import random_scan
 
 from benchmarks.quality.scenes import load, perfect_seeds
 from reflcolor_addon import Cancelled, Colorizer, Seeds, Settings, colorize
-from reflcolor_addon.color.evaluation import error_map, evaluate
+from reflcolor_addon.color.evaluation import error_map, evaluate, with_luminance_of
 
 ENHANCED = Settings.preset("Enhanced")
 
@@ -36,10 +36,14 @@ def test_on_a_real_scan_it_is_nearer_to_the_truth_than_the_paper(doria):
     assert ours["chrominance_psnr_db"] > paper["chrominance_psnr_db"]
 
 
-@pytest.mark.parametrize("preset", ["Paper", "Enhanced"])
+@pytest.mark.parametrize("preset", ["Paper", "Enhanced", "Natural"])
 def test_pixels_of_higher_confidence_have_less_error(doria, preset):
     scan, known, seeds = doria
-    result = colorize(scan, seeds, Settings.preset(preset))
+    settings = Settings.preset(preset)
+    result = colorize(scan, seeds, settings)
+    if settings.light == 0:
+        # It is not sure of the luminance, which is the reflectance's.
+        result = dataclasses.replace(result, rgb=with_luminance_of(result.rgb, scan.color))
     errors, confidence = error_map(result.rgb, scan.color, known)[known], result.confidence[known]
     sure = confidence > np.median(confidence)
     assert errors[sure].mean() < 0.8 * errors[~sure].mean()

@@ -16,6 +16,7 @@ from reflcolor_addon.color.colorspaces import chrominance, merge
 from reflcolor_addon.color.evaluation import error_map
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
+from reflcolor_addon.srgb import linear_to_srgb8, srgb8_to_linear
 
 ALL = np.ones(SHAPE, bool)
 
@@ -31,13 +32,56 @@ def random_colors(seed, shape=SHAPE):
 def test_equal_colors_have_no_error():
     colors = random_colors(0)
     nothing = {"ciede2000_mean": 0.0, "ciede2000_p95": 0.0, "chrominance_psnr_db": math.inf}
-    assert evaluate(colors, colors, ALL) == {"pixels": 60, "color_alone": nothing, "as_is": nothing}
+    assert evaluate(colors, colors, ALL) == {
+        "pixels": 60,
+        "structural_similarity": None,
+        "as_is": nothing,
+        "after_gain": nothing | {"gain": 1.0},
+        "color_alone": nothing,
+    }
 
 
 def test_the_difference_of_pure_red_and_green_is_the_published_one():
     figures = evaluate(flat(0, 255, 0), flat(255, 0, 0), ALL)["as_is"]
     assert figures["ciede2000_mean"] == pytest.approx(86.61, abs=0.02)
     assert figures["ciede2000_p95"] == pytest.approx(86.61, abs=0.02)
+
+
+def test_one_exposure_is_not_to_blame_after_the_gain():
+    truth = random_colors(8)
+    darker = linear_to_srgb8(srgb8_to_linear(truth) * 0.4)
+    figures = evaluate(darker, truth, ALL)
+    assert figures["as_is"]["ciede2000_mean"] > 10
+    assert figures["after_gain"]["ciede2000_mean"] < 0.5
+    assert figures["after_gain"]["gain"] == pytest.approx(2.5, rel=0.01)
+    black = evaluate(flat(0, 0, 0), truth, ALL)
+    assert black["after_gain"] == black["as_is"] | {"gain": 1.0}
+
+
+def test_the_structural_similarity_is_that_of_the_windows_that_are_whole():
+    from skimage.metrics import structural_similarity
+
+    rgb, truth = random_colors(9, (40, 50)), random_colors(10, (40, 50))
+    truth[:20] = rgb[:20] // 2 + truth[:20] // 2
+    valid = np.ones((40, 50), bool)
+    valid[:, 20:23] = False
+    # Each side of the gap by itself, but for the windows that leave it.
+    sides = []
+    for columns in (slice(None, 20), slice(23, None)):
+        images = [image[:, columns] @ [0.299, 0.587, 0.114] for image in (rgb, truth)]
+        _, similarity = structural_similarity(*images, data_range=255, full=True)
+        sides.append(similarity[3:-3, 3:-3].ravel())
+    expected = np.concatenate(sides).mean()
+    rgb[~valid], truth[~valid] = 255, 0
+    assert evaluate(rgb, truth, valid)["structural_similarity"] == pytest.approx(expected, abs=1e-5)
+
+
+@pytest.mark.parametrize("pixels", [1, 350, 10**6])
+def test_the_structural_similarity_does_not_depend_on_the_strips(monkeypatch, pixels):
+    rgb, truth = random_colors(11, (30, 50)), random_colors(12, (30, 50))
+    whole = evaluate(rgb, truth, np.ones((30, 50), bool))["structural_similarity"]
+    monkeypatch.setattr("reflcolor_addon.color.evaluation._CHUNK_PIXELS", pixels)
+    assert evaluate(rgb, truth, np.ones((30, 50), bool))["structural_similarity"] == pytest.approx(whole, abs=1e-6)
 
 
 def test_grays_differ_as_they_are_but_not_in_color_alone():
@@ -69,7 +113,7 @@ def test_only_valid_pixels_count():
 def test_the_map_holds_the_errors_that_the_figures_sum_up():
     rgb, truth = random_colors(2, (30, 40)), random_colors(3, (30, 40))
     valid = np.random.default_rng(4).random((30, 40)) < 0.7
-    errors, figures = error_map(rgb, truth, valid), evaluate(rgb, truth, valid)["color_alone"]
+    errors, figures = error_map(rgb, truth, valid), evaluate(rgb, truth, valid)["as_is"]
     assert errors.dtype == np.float32
     assert (np.isnan(errors) == ~valid).all()
     assert errors[valid].mean() == pytest.approx(figures["ciede2000_mean"], rel=1e-5)
@@ -136,16 +180,18 @@ def test_the_verb_compares_with_an_image(run_cli, cli_folder, garage):
     status, out, _ = run_cli("evaluate", "garage.ptx", "result.png", "--truth", "truth.png", "--json")
     assert status == 0
     document = json.loads(out)
-    assert {key: document[key] for key in ("pixels", "as_is", "color_alone")} == evaluate(garage[1], truth, ALL)
+    figures = evaluate(garage[1], truth, ALL)
+    assert {key: document[key] for key in figures} == figures
 
 
 def test_the_verb_says_the_figures_in_words(run_cli, garage):
     status, out, _ = run_cli("evaluate", "garage.ptx", "result.png")
     assert status == 0
-    head, titles, alone, as_is = out.splitlines()
+    head, titles, as_is, exposed, alone, similarity = out.splitlines()
     assert head == "59 pixels compared"
     assert titles.split() == ["CIEDE2000", "mean", "95", "%", "chrominance", "PSNR"]
-    assert alone.startswith("color alone") and as_is.startswith("as is")
+    assert as_is.startswith("as is") and exposed.startswith("exposed alike") and alone.startswith("color alone")
+    assert similarity == "structural similarity of the luminance: no window of 7 x 7 pixels is whole"
     assert alone.endswith(" dB")
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from reflcolor_addon import colorize, evaluate
-from reflcolor_addon.color.evaluation import error_map
+from reflcolor_addon.color.evaluation import error_map, with_luminance_of
 
 # A step in range of this share is a jump edge; what lies within so many pixels of one is near it.
 _JUMP_SHARE, _NEAR_PX = 0.03, 4
@@ -46,9 +46,8 @@ def range_row(case, seeds, without, with_range):
     """What the range is worth near jump edges and elsewhere: mean CIEDE2000 of color alone without and with it."""
     valid = case.scan.valid
     near = near_jumps(case.scan) & valid
-    before, after = (
-        error_map(colorize(case.scan, seeds, settings).rgb, case.truth, valid) for settings in (without, with_range)
-    )
+    colored = (colorize(case.scan, seeds, settings).rgb for settings in (without, with_range))
+    before, after = (error_map(with_luminance_of(rgb, case.truth), case.truth, valid) for rgb in colored)
     cells = []
     for region in (valid, near, valid & ~near):
         low, high = before[region].mean(), after[region].mean()

@@ -121,7 +121,7 @@ LOOKS = {
     ),
     "error": Look(
         title="Error",
-        description="The difference from the true colors, where they are known, in CIEDE2000 with the luminance apart",
+        description="The difference from the true colors, where they are known, in CIEDE2000",
         icon="DRIVER_ROTATIONAL_DIFFERENCE",
         colors="Error_Map",
         missing=n_("Evaluate first"),

@@ -156,8 +156,8 @@ _LOOKS = {
     "The colors that were spread from the seeds; renders and exports take them, too": (
         "Die von den Saatpunkten verbreiteten Farben; auch Bilder und Exporte nehmen sie"
     ),
-    "The difference from the true colors, where they are known, in CIEDE2000 with the luminance apart": (
-        "Der Unterschied zu den wahren Farben, wo sie bekannt sind, in CIEDE2000 ohne Helligkeit"
+    "The difference from the true colors, where they are known, in CIEDE2000": (
+        "Der Unterschied zu den wahren Farben, wo sie bekannt sind, in CIEDE2000"
     ),
     "The distance from the scanner": "Der Abstand vom Scanner",
     "The gray of the reflectance, as the scanner measured it; renders and exports take it, too": (

@@ -1,14 +1,17 @@
-"""How far colors are from the true ones: CIEDE2000, and the signal-to-noise ratio of the chrominance."""
+"""How far colors are from the true ones: CIEDE2000, structural similarity, signal-to-noise ratio of chrominance."""
 
 import math
 
 import numpy as np
 
 from ..errors import ScanError
+from ..srgb import linear_to_srgb8, srgb8_to_linear
 from .colorspaces import LUMA, chrominance, merge
 
 # A color difference holds some thirty float64 values per pixel.
 _CHUNK_PIXELS = 1 << 17
+# Side of the window of the structural similarity: what scikit-image takes by default.
+_WINDOW = 7
 
 
 def evaluate(rgb, truth, valid):
@@ -26,11 +29,14 @@ def evaluate(rgb, truth, valid):
     Returns
     -------
     dict
-        ``pixels``, how many were compared, and twice the same three figures: under ``color_alone`` with the true
-        luminance put into ``rgb``, because a method that spreads chrominance is not to blame for the reflectance; under
-        ``as_is`` as the colors come. ``ciede2000_mean`` and ``ciede2000_p95`` are mean and 95th percentile of the color
-        difference (1 is about what an eye can tell); ``chrominance_psnr_db`` is the peak signal-to-noise ratio of Cb
-        and Cr together (peak 255; infinite where nothing differs).
+        ``pixels``, how many were compared; ``structural_similarity`` of the luminance (Y of YCbCr; Wang et al. 2004,
+        1 where nothing differs), the mean over all windows of 7 x 7 pixels that are compared as a whole, None if there
+        is none; and three times the same three figures: under ``as_is`` as the colors come; under ``after_gain`` when
+        they are made lighter or darker as by one exposure, so that the mean of the linear light is the true one
+        (``gain`` is the factor); under ``color_alone`` with the true luminance put in, which leaves hue and
+        saturation. ``ciede2000_mean`` and ``ciede2000_p95`` are mean and 95th percentile of the color difference (1 is
+        about what an eye can tell); ``chrominance_psnr_db`` is the peak signal-to-noise ratio of Cb and Cr together
+        (peak 255; infinite where nothing differs).
 
     Raises
     ------
@@ -38,16 +44,25 @@ def evaluate(rgb, truth, valid):
         If the shapes disagree, or no pixel is to be compared.
     """
     _check(rgb, truth, valid)
-    alone = with_luminance_of(rgb, truth)
-    figures = {name: _figures(colors[valid], truth[valid]) for name, colors in (("color_alone", alone), ("as_is", rgb))}
-    return {"pixels": int(np.count_nonzero(valid)), **figures}
+    seen, true = rgb[valid], truth[valid]
+    exposed, gain = _exposed_like(seen, true)
+    return {
+        "pixels": int(np.count_nonzero(valid)),
+        "structural_similarity": _structural_similarity(rgb, truth, valid),
+        "as_is": _figures(seen, true),
+        "after_gain": _figures(exposed, true) | {"gain": gain},
+        "color_alone": _figures(with_luminance_of(seen[None], true[None])[0], true),
+    }
 
 
 def error_map(rgb, truth, valid):
-    """Return the (H, W) float32 CIEDE2000 of color alone at every pixel; NaN where not valid. As in `evaluate`."""
+    """Return the (H, W) float32 CIEDE2000 of the colors as they come at every pixel; NaN where not valid.
+
+    Parameters and errors are those of `evaluate`.
+    """
     _check(rgb, truth, valid)
     errors = np.full(valid.shape, np.nan, np.float32)
-    errors[valid] = _color_difference(with_luminance_of(rgb, truth)[valid], truth[valid])
+    errors[valid] = _color_difference(rgb[valid], truth[valid])
     return errors
 
 
@@ -63,6 +78,41 @@ def _check(rgb, truth, valid):
             raise ScanError(f"{name}: expected an image of shape {expected}, found {np.shape(image)}")
     if not np.any(valid):
         raise ScanError("no pixel has both a return and a true color, so there is nothing to compare")
+
+
+def _exposed_like(rgb, truth):
+    """(N, 3) uint8 with the mean linear light of the truth, and the factor that it takes."""
+    parts = [slice(start, start + _CHUNK_PIXELS) for start in range(0, len(rgb), _CHUNK_PIXELS)]
+    light, wanted = (sum(float(srgb8_to_linear(image[part]).sum()) for part in parts) for image in (rgb, truth))
+    gain = wanted / light if light > 0 else 1.0
+    exposed = np.empty_like(rgb)
+    for part in parts:
+        exposed[part] = linear_to_srgb8(gain * srgb8_to_linear(rgb[part]))
+    return exposed, gain
+
+
+def _structural_similarity(rgb, truth, valid):
+    """Mean over whole windows, None without any. What is not compared is filled, and no window of it counts."""
+    import cv2
+    from skimage.metrics import structural_similarity
+
+    height, width = valid.shape
+    if min(height, width) < _WINDOW:
+        return None
+    window = np.ones((_WINDOW, _WINDOW), np.uint8)
+    whole = cv2.erode(valid.astype(np.uint8), window, borderType=cv2.BORDER_CONSTANT, borderValue=0) > 0
+    total, margin, rows = 0.0, _WINDOW // 2, max(1, _CHUNK_PIXELS // width)
+    for top in range(0, height, rows):
+        # Strips that overlap, so that every window of the rows that count is whole.
+        low, high = max(0, top - margin), min(height, top + rows + margin)
+        low, high = max(0, min(low, high - _WINDOW)), max(high, low + _WINDOW)
+        images = [np.where(valid[low:high], image[low:high] @ LUMA, 0).astype(np.float32) for image in (rgb, truth)]
+        _, similarity = structural_similarity(*images, win_size=_WINDOW, data_range=255, full=True)
+        strip = slice(top, min(top + rows, height))
+        inside = similarity[strip.start - low : strip.stop - low]
+        total += float(inside[whole[strip]].sum(dtype=np.float64))
+    count = np.count_nonzero(whole)
+    return total / count if count else None
 
 
 def _figures(rgb, truth):

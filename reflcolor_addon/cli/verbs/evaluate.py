@@ -15,7 +15,7 @@ NAME = "evaluate"
 HELP = "measure colors against the true ones"
 FORMAT = "reflcolor-evaluation"
 VERSION = 1
-_TITLES = {"color_alone": "color alone", "as_is": "as is"}
+_TITLES = {"as_is": "as is", "after_gain": "exposed alike", "color_alone": "color alone"}
 
 
 def add_arguments(parser):
@@ -76,7 +76,9 @@ def _as_text(figures):
             f"{title:<14}{found['ciede2000_mean']:>8.2f}{found['ciede2000_p95']:>8.2f}   "
             f"{found['chrominance_psnr_db']:.2f} dB"
         )
-    return "\n".join(lines)
+    similarity = figures["structural_similarity"]
+    told = "no window of 7 x 7 pixels is whole" if similarity is None else f"{similarity:.2f}"
+    return "\n".join([*lines, f"structural similarity of the luminance: {told}"])
 
 
 def _finite(document):
