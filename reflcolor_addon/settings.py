@@ -115,8 +115,8 @@ class Settings:
         low=0,
         high=1,
         unit="share",
-        label="Light",
-        help="How light the colors are: 0 as the reflectance, which has no shadows; 1 as the photo; not in the paper",
+        label="Light from Photo",
+        help="Where light and dark come from: 0 the reflectance, which has no shadows; 1 the photo and the picked colors",
     )
     tone: float = setting(
         1.0,
@@ -126,7 +126,7 @@ class Settings:
         high=5,
         slider_step=0.1,
         label="Tone",
-        help="Above 1 the colors are lighter, below 1 darker; 1 leaves them as Light makes them",
+        help="Above 1 the colors are lighter, below 1 darker, whatever the light comes from; 1 changes nothing",
         # How light the colors are is the scan's matter, not the method's.
         in_presets=False,
     )

@@ -123,7 +123,7 @@ _PROPERTIES = {
     "Image": "Bild",
     "Kriging": "Kriging",
     "Left Edge": "Linke Kante",
-    "Light": "Licht",
+    "Light from Photo": "Licht vom Foto",
     "Line": "Linie",
     "Live Preview": "Live-Vorschau",
     "Live Update": "Live-Aktualisierung",

@@ -170,8 +170,8 @@ _LOOKS = {
 }
 
 _SETTINGS = {
-    "Above 1 the colors are lighter, below 1 darker; 1 leaves them as Light makes them": (
-        "Über 1 sind die Farben heller, unter 1 dunkler; 1 lässt sie, wie Licht sie macht"
+    "Above 1 the colors are lighter, below 1 darker, whatever the light comes from; 1 changes nothing": (
+        "Über 1 sind die Farben heller, unter 1 dunkler, woher auch immer das Licht kommt; 1 ändert nichts"
     ),
     "Whether its camera was found and stood the test": "Ob seine Kamera gefunden wurde und die Prüfung bestand",
     "All seeds where that takes about two seconds, else as many as it takes to be close to that": (
@@ -187,9 +187,8 @@ _SETTINGS = {
     "Colors exactly as they are, without any light": "Farben genau, wie sie sind, ohne jedes Licht",
     "Directions that the descriptor tells apart": "Richtungen, die der Deskriptor unterscheidet",
     "Every seed colors every pixel, as the paper has it": "Jeder Saatpunkt färbt jedes Pixel, wie veröffentlicht",
-    "How light the colors are: 0 as the reflectance, which has no shadows; 1 as the photo; not in the paper": (
-        "Wie hell die Farben sind: 0 wie die Reflektanz, die keine Schatten hat; 1 wie das Foto; "
-        "nicht in der Veröffentlichung"
+    "Where light and dark come from: 0 the reflectance, which has no shadows; 1 the photo and the picked colors": (
+        "Woher Hell und Dunkel kommen: 0 von der Reflektanz, die keine Schatten hat; 1 vom Foto und den gewählten Farben"
     ),
     "As Enhanced, and as light as the photo: light and dark are spread from the seeds, too": (
         "Wie Verbessert, und so hell wie das Foto: auch Hell und Dunkel breiten sich von den Saatpunkten aus"

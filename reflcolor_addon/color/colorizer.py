@@ -132,7 +132,7 @@ class Colorizer:
             method=dict(spread.method),
         )
 
-    def spread(self, seeds, settings=None, *, progress=lambda fraction, text: None, cancelled=lambda: False):
+    def spread(self, seeds, settings=None, *, progress=None, cancelled=None):
         """Spread the seeds' values, without making colors of them; errors are those of ``colorize``.
 
         Parameters
@@ -148,6 +148,8 @@ class Colorizer:
         list of str
             Warnings.
         """
+        progress = progress or (lambda fraction, text: None)
+        cancelled = cancelled or (lambda: False)
         self._use(settings or self.settings)
         self._require_memory(len(seeds))
         progress(0.0, "Preparing the scan")
