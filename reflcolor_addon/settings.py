@@ -116,7 +116,7 @@ class Settings:
         high=1,
         unit="share",
         label="Light from Photo",
-        help="Where light and dark come from: 0 the reflectance, which has no shadows; 1 the photo and the picked colors",
+        help="Where light and dark come from: 0 the reflectance, which has no shadows; 1 the photo and picked colors",
     )
     tone: float = setting(
         1.0,

@@ -187,8 +187,8 @@ _SETTINGS = {
     "Colors exactly as they are, without any light": "Farben genau, wie sie sind, ohne jedes Licht",
     "Directions that the descriptor tells apart": "Richtungen, die der Deskriptor unterscheidet",
     "Every seed colors every pixel, as the paper has it": "Jeder Saatpunkt färbt jedes Pixel, wie veröffentlicht",
-    "Where light and dark come from: 0 the reflectance, which has no shadows; 1 the photo and the picked colors": (
-        "Woher Hell und Dunkel kommen: 0 von der Reflektanz, die keine Schatten hat; 1 vom Foto und den gewählten Farben"
+    "Where light and dark come from: 0 the reflectance, which has no shadows; 1 the photo and picked colors": (
+        "Woher Hell und Dunkel kommen: 0 von der Reflektanz, die keine Schatten hat; 1 vom Foto und gewählten Farben"
     ),
     "As Enhanced, and as light as the photo: light and dark are spread from the seeds, too": (
         "Wie Verbessert, und so hell wie das Foto: auch Hell und Dunkel breiten sich von den Saatpunkten aus"
