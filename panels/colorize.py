@@ -45,7 +45,12 @@ class Colorize(Step):
         row = layout.row()
         row.scale_y = 1.5
         row.operator("reflcolor.colorize", icon="COLOR")
-        layout.row().prop(settings, "picture_look", expand=True)
+        column = layout.column()
+        column.row().prop(settings, "picture_look", expand=True)
+        column.prop(settings, "picture_filled")
+        row = column.row()
+        row.active = settings.picture_filled
+        row.prop(settings, "picture_drop_mixed")
         row = layout.row(align=True)
         row.operator("reflcolor.set_up_render", icon="OUTLINER_OB_CAMERA")
         row.operator("render.render", text="Render", icon="RENDER_STILL")

@@ -23,8 +23,8 @@ ROOMS = {
     "simulation": {"scan", "color"},
     "report": {"scan", "files", "seeds", "color"},
     "view": {"scan", "seeds", "color"},
-    "batch": {"scan", "files", "seeds", "geodesic", "color", "matching", "report"},
-    "cli": {"scan", "files", "seeds", "color", "matching", "simulation", "report", "batch"},
+    "batch": {"scan", "files", "seeds", "geodesic", "color", "matching", "report", "view"},
+    "cli": {"scan", "files", "seeds", "color", "matching", "simulation", "report", "view", "batch"},
 }
 # The same for what ties the core to Blender; each may use all of the core.
 BLENDER_ROOMS = {

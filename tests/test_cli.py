@@ -242,7 +242,7 @@ def test_a_scan_without_reflectance_can_be_looked_at_but_is_not_colorized(run_cl
 def test_what_blender_writes_is_handed_to_it_with_the_report(run_cli, cli_folder):
     calls = []
 
-    def write_scene(jobs, paths, render, progress):
+    def write_scene(jobs, paths, render, _picture, progress):
         (job,) = jobs
         progress(0.5, "Writing")
         calls.append((job.scan.name, job.colorization.rgb.shape, paths, render, job.report))
@@ -311,7 +311,7 @@ def test_without_blender_what_needs_it_is_wrong_usage(run_cli, cli_folder, argum
 
 
 def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cli_folder):
-    def write_scene(_results, paths, _render, _progress):
+    def write_scene(_results, paths, _render, _picture, _progress):
         paths[0].write_bytes(b"scene")
         raise OutputError("b.usd: cannot be written (No space left on device)")
 

@@ -272,7 +272,7 @@ def test_hand_picked_seeds_may_be_there_for_some_scans_only(run_cli, painted):
 def test_a_scene_holds_all_scans_and_one_with_the_placeholder_each(run_cli, site):
     calls = []
 
-    def write_scene(jobs, paths, render, progress):
+    def write_scene(jobs, paths, render, _picture, progress):
         made = [(job.name, job.colorization.rgb, job.report) for job in jobs]
         progress(0.5, "Writing")
         calls.append(([name for name, _, _ in made], list(map(str, paths)), render and str(render)))
@@ -311,7 +311,7 @@ def test_a_mesh_holds_all_scans_and_one_with_the_placeholder_each(run_cli, site)
 def test_a_scan_is_let_go_when_nothing_needs_it_any_more(run_cli, site):
     met = []
 
-    def write_scene(jobs, paths, _render, _progress):
+    def write_scene(jobs, paths, _render, _picture, _progress):
         for job in jobs:
             assert all(earlier() is None for earlier in met)
             met.append(weakref.ref(job.scan))
@@ -327,7 +327,7 @@ def test_a_scan_is_let_go_when_nothing_needs_it_any_more(run_cli, site):
 
 
 def test_an_interruption_leaves_whole_files_and_names_them(run_cli, site):
-    def write_scene(_results, paths, _render, progress):
+    def write_scene(_results, paths, _render, _picture, progress):
         if paths[0].name == "east.usd":
             signal.raise_signal(signal.SIGINT)
             progress(0.5, "Writing")

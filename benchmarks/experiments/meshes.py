@@ -31,6 +31,9 @@ class Renderer:
         )
         core = importlib.import_module(f"{self._session.EXTENSION}.reflcolor_addon.scan.object_arrays")
         self._object_arrays = core.object_arrays
+        view = importlib.import_module(f"{self._session.EXTENSION}.reflcolor_addon.view.picture")
+        # As measured: what is compared here is the colors.
+        self._picture = view.Picture(look=view.LIT, filled=False)
 
     def picture(self, scans, colors=None, view=None):
         """Return the (800, 1280, 3) uint8 picture of the meshes of several scans together.
@@ -50,7 +53,7 @@ class Renderer:
         for item, scan, rgb in zip(made, scans, colors, strict=True) if colors else ():
             objects.add_colors(item, objects.COLORIZED, rgb[scan.valid])
             objects.show_colors(item, objects.COLORIZED)
-        self._render.set_up_picture(context, made[0], "LIT")
+        self._render.set_up_picture(context, made[0], self._picture, {})
         context.scene.render.resolution_x, context.scene.render.resolution_y = 1280, 800
         if view is not None:
             self._look(context.scene, *view)

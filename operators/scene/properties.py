@@ -13,9 +13,10 @@ from bpy.props import (
 )
 
 from ...reflcolor_addon.seeds.sources import SOURCES
+from ...reflcolor_addon.view.picture import LOOKS, Picture
 from .editors import redraw_editors, select_only
 from .notices import ReflcolorNotice
-from .picture_material import LIT, UNLIT
+from .render import follow_picture
 from .setting_properties import ColorizeSettings, MatchSettings
 
 
@@ -117,6 +118,16 @@ def _color_was_picked(settings, _context):
     settings.picked_photo = None
 
 
+def _picture_was_changed(settings, _context):
+    follow_picture(settings.id_data, scene_picture(settings.id_data))
+
+
+def scene_picture(scene):
+    """Return the Picture that the settings of a scene say."""
+    chosen = scene.reflcolor
+    return Picture(look=chosen.picture_look, filled=chosen.picture_filled, drop_mixed=chosen.picture_drop_mixed)
+
+
 class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup):
     """Settings of the next colorization in this scene"""
 
@@ -155,10 +166,20 @@ class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup
     picture_look: EnumProperty(
         name="Look",
         description="How pictures of the scans look",
-        items=(
-            (UNLIT, "Archive", "Colors exactly as they are, without any light"),
-            (LIT, "Lit", "In even light, which shows the shape of surfaces"),
-        ),
+        items=tuple((look, look.title(), description) for look, description in LOOKS.items()),
+        update=_picture_was_changed,
+    )
+    picture_filled: BoolProperty(
+        name="Fill Holes",
+        description="Fill small holes and smooth outlines in pictures; the scan's mesh stays as it was measured",
+        default=Picture().filled,
+        update=_picture_was_changed,
+    )
+    picture_drop_mixed: BoolProperty(
+        name="Drop Mixed Returns",
+        description="Leave out of pictures where the beam met two surfaces, and measured between them",
+        default=Picture().drop_mixed,
+        update=_picture_was_changed,
     )
     active_photo: IntProperty(name="Active Photo", description="Photo that is selected in the list")
 

@@ -1,4 +1,4 @@
-"""A picture of scans and of nothing else: camera, light and render."""
+"""A picture of scans and of nothing else: camera, look and render."""
 
 import math
 
@@ -8,30 +8,32 @@ from mathutils import Vector
 from ...reflcolor_addon.view.framing import picture_size
 from .collections import PICTURE, own_collection
 from .nodes import node_tree_of
-from .picture_material import AMBIENT_SHARE, LIT, UNLIT, give_look
+from .picture_material import give_look
+from .shown_surface import add_surface, remove_surface, switch_surface
 from .viewpoint import view_of
 
 # On objects: added for a picture; left out of pictures, which the person had not done.
 _ADDED, _LEFT_OUT = "reflcolor_for_render", "reflcolor_left_out"
 # Linear light: dark enough for white walls to stand out from, light enough for dark floors.
 _BACKGROUND = (0.045, 0.047, 0.05, 1.0)
-# From the left above the viewer.
-_SUN_FROM = (-0.4, 0.5, 1.0)
+# To the left, above and behind the viewer: where the light comes from.
+_LIGHT_FROM = Vector((-0.4, 0.5, 1.0)).normalized()
 
 
-def set_up_picture(context, obj, look=UNLIT):
+def set_up_picture(context, obj, picture, surfaces):
     """Have the scene's renders show its scans only, as a camera of their own sees one of them.
 
-    Nothing is deleted: what else is in the scene is left out of renders, camera and light are in a collection of their
-    own, and the world that was there is kept in the file. What was set up before makes room.
+    Nothing is deleted: what else is in the scene is left out of renders, the camera is in a collection of its own, and
+    the world that was there is kept in the file. What was set up before makes room.
 
     Parameters
     ----------
     context : bpy.types.Context
     obj : bpy.types.Object
         The scan to frame.
-    look : {UNLIT, LIT}
-        Colors exactly as they are, or in even light.
+    picture : Picture
+    surfaces : dict of str to ShownSurface
+        By the name of each scan's object; scans without one are shown as they are measured.
     """
     scene = context.scene
     for added in [other for other in scene.objects if _ADDED in other]:
@@ -44,23 +46,41 @@ def set_up_picture(context, obj, look=UNLIT):
     camera.data.angle = math.radians(view.fov_deg)
     camera.data.clip_start, camera.data.clip_end = view.clip
     scene.camera = camera
-    if look == LIT:
-        # Without shadows: a scan has holes and open backs, whose shadows would look like dirt.
-        sun = _add(context, "Laser Scan Light", bpy.data.lights.new("Laser Scan Light", "SUN"))
-        sun.data.energy = math.pi * (1 - AMBIENT_SHARE)
-        sun.data.angle, sun.data.use_shadow = 0.0, False
-        sun.rotation_euler = (camera.rotation_euler.to_matrix() @ Vector(_SUN_FROM)).to_track_quat("Z", "Y").to_euler()
     _leave_out_all_but_scans(scene)
-    for scan in (other for other in scene.objects if other.reflcolor.rows):
-        for material in filter(None, scan.data.materials):
-            give_look(material, look)
+    for scan in scans_of(scene):
+        if scan.library is None:
+            remove_surface(scan)
+        if scan.name in surfaces:
+            add_surface(scan, surfaces[scan.name])
+    follow_picture(scene, picture)
     scene.render.resolution_x, scene.render.resolution_y = picture_size(view.aspect)
     _set_up_scene(scene)
 
 
-def look_through_camera(context, area):
-    """Have a 3D View look through the scene's camera, in Local View, too, where it has a camera of its own."""
-    space = area.spaces.active
+def follow_picture(scene, picture):
+    """Where the scene is set up for pictures, have its scans shown as a Picture says."""
+    if scene.camera is None or _ADDED not in scene.camera:
+        return
+    toward_light = scene.camera.rotation_euler.to_matrix() @ _LIGHT_FROM
+    for scan in scans_of(scene):
+        switch_surface(scan, shown=picture.filled, drop_mixed=picture.drop_mixed)
+        for material in scan.data.materials:
+            if material is not None and material.library is None:
+                give_look(material, picture.look, toward_light)
+
+
+def scans_of(scene):
+    """Return the objects of the scene's scans."""
+    return [obj for obj in scene.objects if obj.reflcolor.rows]
+
+
+def look_through_camera(context):
+    """Have the window's largest 3D View look through the scene's camera."""
+    views = [area for area in context.window.screen.areas if area.type == "VIEW_3D"] if context.window else []
+    if not views:
+        return
+    space = max(views, key=lambda area: area.width * area.height).spaces.active
+    # In Local View a view has a camera of its own.
     space.camera = context.scene.camera
     space.region_3d.view_perspective = "CAMERA"
     if space.local_view is not None:
@@ -98,7 +118,7 @@ def _set_up_scene(scene):
     scene.render.image_settings.color_mode = "RGB"
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
-    scene.cycles.samples = 32
+    scene.cycles.samples = 16
     scene.cycles.seed = 0
     scene.cycles.max_bounces = 0
     scene.cycles.transparent_max_bounces = 32

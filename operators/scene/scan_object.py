@@ -21,7 +21,8 @@ CONFIDENCE = "confidence"
 NEAREST_SEED = "nearest_seed"
 ERROR = "error"
 SHIFT = "reflcolor_shift"
-CENTER = "reflcolor_center"
+# On meshes: what the coordinates are measured from, metres in the scanner's frame; degrees, as in `grid_mesh`.
+CENTER, MAX_INCIDENCE = "reflcolor_center", "reflcolor_max_incidence"
 # On objects whose colors are guesses, none of them seen by a photo that was verified.
 GUESSED = "reflcolor_guessed"
 _KINDS = {np.float32: "FLOAT", np.int32: "INT"}
@@ -46,7 +47,7 @@ def add_scan_object(context, arrays):
     obj.matrix_world = Matrix(pose)
     # Doubles: a shift of six digits does not fit into a float property.
     obj[SHIFT] = scene[SHIFT] = shift.tolist()
-    mesh[CENTER] = arrays.center.tolist()
+    mesh[CENTER], mesh[MAX_INCIDENCE] = arrays.center.tolist(), arrays.max_incidence_deg
     state = obj.reflcolor
     state.rows, state.cols = arrays.shape
     state.source = str(arrays.source or "")
@@ -141,6 +142,14 @@ def coordinates_of(mesh):
     return coordinates.reshape(-1, 3)
 
 
+def vertex_of_pixels(obj):
+    """Return (H W,) int32: the vertex of every pixel of the scan's grid, in reading order; -1 where there is none."""
+    rows, cols = grid_indices(obj)
+    vertex = np.full(obj.reflcolor.rows * obj.reflcolor.cols, -1, np.int32)
+    vertex[rows * obj.reflcolor.cols + cols] = np.arange(len(rows))
+    return vertex
+
+
 def seed_vertices(obj, rows, cols):
     """Return where pixels of the scan are in the world, and which of them have a vertex.
 
@@ -154,9 +163,7 @@ def seed_vertices(obj, rows, cols):
     known : (S,) bool
     """
     mesh, width = obj.data, obj.reflcolor.cols
-    grid_rows, grid_cols = grid_indices(obj)
-    vertex = np.full(obj.reflcolor.rows * width, -1, np.int32)
-    vertex[grid_rows * width + grid_cols] = np.arange(len(grid_rows))
+    vertex = vertex_of_pixels(obj)
     inside = (rows < obj.reflcolor.rows) & (cols < width)
     index = np.where(inside, vertex[np.where(inside, rows * width + cols, 0)], -1)
     known = index >= 0

@@ -6,6 +6,7 @@ from ...reflcolor_addon.errors import OutputError
 from ...reflcolor_addon.files.atomic import written_atomically
 from ...reflcolor_addon.messages import Message
 from ...reflcolor_addon.scan.object_arrays import object_arrays
+from ...reflcolor_addon.view.shown_surface import shown_surface
 from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
 from .provenance import record_provenance
@@ -15,7 +16,7 @@ from .seed_list import append_seeds
 from .usd import write_usd
 
 
-def write_results(jobs, paths, picture, progress):
+def write_results(jobs, paths, render_path, picture, progress):
     """Write colorized scans to every path, in the format of its suffix, and render a picture of them.
 
     Parameters
@@ -24,8 +25,9 @@ def write_results(jobs, paths, picture, progress):
         Each is colorized and has its report, which is kept with the scan's object.
     paths : list of Path
         Files to write: .blend or .usd.
-    picture : Path or None
+    render_path : Path or None
         PNG file to render.
+    picture : Picture
     progress : callable
         Called as ``progress(fraction, text)``.
 
@@ -36,19 +38,23 @@ def write_results(jobs, paths, picture, progress):
     """
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     context = bpy.context
-    objects = []
+    pictured = render_path is not None or any(path.suffix.lower() == ".blend" for path in paths)
+    objects, surfaces = [], {}
     for job in jobs:
         progress(0.0, "Building the scene")
-        objects.append(_add_object(context, job))
+        obj = _add_object(context, job)
+        objects.append(obj)
+        if pictured and picture.filled:
+            surfaces[obj.name] = shown_surface(job.scan, drop_mixed=picture.drop_mixed)
     for obj in objects:
         obj.select_set(True)
     context.view_layer.objects.active = objects[0]
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
-    if picture is not None or any(path.suffix.lower() == ".blend" for path in paths):
+    if pictured:
         # All of a site's scans together would be looked at from far above what they stand around.
-        set_up_picture(context, objects[0])
-    if picture is not None:
-        steps.append((picture, lambda path: render(context, path)))
+        set_up_picture(context, objects[0], picture, surfaces)
+    if render_path is not None:
+        steps.append((render_path, lambda path: render(context, path)))
     for done, (path, write) in enumerate(steps):
         progress(done / len(steps), Message("Writing {name}", name=path.name))
         _write(path, write)

@@ -28,7 +28,6 @@ _PANELS = {
     "The scan is linked from another file; make it local or a library override first": (
         "Der Scan ist aus einer anderen Datei verknüpft; erst lokal machen oder eine Bibliotheksüberschreibung anlegen"
     ),
-    "The scan has no points to show": "Der Scan hat keine Punkte zu zeigen",
     "Needs seeds": "Braucht Saatpunkte",
     "Next Seed": "Nächster Saatpunkt",
     "No seed reaches": "Von keinem erreicht",
@@ -64,6 +63,7 @@ _JOBS = {
     "Match Photos": "Fotos zuordnen",
     "Simulate Laser Scan": "Laserscan simulieren",
     "Move Seeds or Stroke": "Saatpunkte ziehen oder Strich",
+    "Set Up Render": "Rendern einrichten",
 }
 
 _MISSING = {
@@ -141,6 +141,7 @@ _REPORTS = {
     "{name} is gone; its colors were dropped": "{name} ist nicht mehr da; die Farben wurden verworfen",
     "{name} is gone; its errors were dropped": "{name} ist nicht mehr da; die Fehler wurden verworfen",
     "{name} is gone; its seeds were dropped": "{name} ist nicht mehr da; die Saatpunkte wurden verworfen",
+    "{name} is gone; the render was not set up": "{name} ist weg; das Rendern wurde nicht eingerichtet",
     "{name} is not in this view layer": "{name} ist nicht in dieser Ansichtsebene",
     "{name} is still running; press ESC to cancel it": "{name} läuft noch; ESC bricht es ab",
     "{name} was left out: {reason}": "{name} wurde ausgelassen: {reason}",
@@ -161,6 +162,7 @@ _REPORTS = {
     "{name}: the scan came without colors; choose an image of its true colors": (
         "{name}: der Scan kam ohne Farben; ein Bild seiner wahren Farben wählen"
     ),
+    "{name}: the scan has no points to show": "{name}: der Scan hat keine Punkte zu zeigen",
     "{object}: the mesh has lost its attribute {name}; undo what removed it, or import again": (
         "{object}: das Netz hat sein Attribut {name} verloren; rückgängig machen oder noch einmal importieren"
     ),
@@ -175,6 +177,8 @@ CORE = {
     ),
     "Estimating by kriging": "Schätzen durch Kriging",
     "Mixing the colors": "Mischen der Farben",
+    "Filling small holes": "Kleine Löcher werden gefüllt",
+    "Looking for mixed returns": "Gemischte Messungen werden gesucht",
     "Matched": "Zugeordnet",
     "Opening the photos": "Fotos werden geöffnet",
     "Preparing the scan": "Scan wird vorbereitet",
@@ -192,6 +196,7 @@ CORE = {
         "{count} von {all} Saatpunkten liegen, wo {scan} keine Messung hat, und wurden zum nächsten Pixel mit einer "
         "verschoben; gehören sie zu einem anderen Scan?"
     ),
+    "Smoothing outlines": "Umrisse werden geglättet",
     "the colors are dark because most of the reflectance is; try tone {tone:g}": (
         "die Farben sind dunkel, weil die Reflektanz es größtenteils ist; Tonwert {tone:g} versuchen"
     ),

@@ -15,9 +15,9 @@ class BlenderTasks:
     version : str
         Blender's, for the report.
     write_scene : callable
-        Called as ``write_scene(jobs, paths, render, progress)`` with an iterable of colorized `ScanJob`, each to become
-        an object that keeps its report, the .blend and .usd files to write, and the picture to render or None; raises
-        OutputError.
+        Called as ``write_scene(jobs, paths, render, picture, progress)`` with an iterable of colorized `ScanJob`, each
+        to become an object that keeps its report, the .blend and .usd files to write, the file of the picture to render
+        or None, and the `Picture` that says how it looks; raises OutputError.
     simulate : callable
         Called as ``simulate(request, progress, written)`` with a `SimulationRequest`; adds every file that it wrote to
         the list ``written``. Raises ReflcolorError, and UsageError where something that was asked for is not in the

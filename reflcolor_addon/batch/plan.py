@@ -7,6 +7,7 @@ from ..errors import UsageError
 from ..files.readers.options import AS_IT_IS, ReadOptions
 from ..files.writers.scans_back import SCAN_FILES
 from ..settings import Settings
+from ..view.picture import Picture
 
 PLACEHOLDER = "{scan}"
 """Stands for a scan's label in the path of what each of several scans has of its own."""
@@ -83,6 +84,8 @@ class Plan:
         Let a `.scan.json` name images outside of its own folder.
     reading : ReadOptions
         How the scans are to be read.
+    picture : Picture
+        How scenes and pictures show the scans.
     """
 
     scans: tuple[Path, ...]
@@ -94,6 +97,7 @@ class Plan:
     photos: tuple[Path, ...] = ()
     outside_files: bool = False
     reading: ReadOptions = AS_IT_IS
+    picture: Picture = field(default_factory=Picture)
 
     @property
     def needs_colors(self):

@@ -157,7 +157,7 @@ class _Writer:
         paths = [output.path for output in outputs if output.kind == SCENE]
         render = next((output.path for output in outputs if output.kind == RENDER), None)
         if paths or render is not None:
-            self._session.blender.write_scene(jobs, paths, render, self._session.progress)
+            self._session.blender.write_scene(jobs, paths, render, self._plan.picture, self._session.progress)
 
 
 def _write_seeds(job, _plan, path):

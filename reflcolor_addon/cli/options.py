@@ -9,6 +9,7 @@ from ..errors import SettingsError, UsageError
 from ..files.readers import SCAN_SUFFIXES
 from ..files.readers.options import ANGLE, AUTO, RETURNS, STORED, TURNS, UNITS, ReadOptions
 from ..settings import DEFAULT_PRESET, MATCHING, PRESETS, PROPAGATION, SETTINGS, Settings
+from ..view.picture import ARCHIVE, LOOKS
 
 _SCAN_HELP = "which scan of a file of several: its name, its index as info prints it (counted from 1), or all"
 _METAVARS = {"pixels": "PIXELS", "share": "SHARE"}
@@ -118,6 +119,28 @@ def add_propagation(parser):
 def add_matching(parser):
     """How seeds are found in photos."""
     _add_settings(parser.add_argument_group("finding seeds in photos"), MATCHING)
+
+
+def add_picture(parser):
+    """The picture to render, and how it shows the scans."""
+    group = parser.add_argument_group("pictures (in Blender)")
+    group.add_argument("--render", metavar="PNG", type=Path, help="picture of the colored mesh")
+    group.add_argument(
+        "--look",
+        choices=LOOKS,
+        default=ARCHIVE,
+        help="archive: colors exactly as they are; lit: in even light (default %(default)s)",
+    )
+    group.add_argument(
+        "--as-measured",
+        action="store_true",
+        help="show the measured surface alone: no hole is filled, no outline smoothed",
+    )
+    group.add_argument(
+        "--keep-mixed",
+        action="store_true",
+        help="show returns of a beam that met two surfaces, too",
+    )
 
 
 def _add_settings(parser, group):

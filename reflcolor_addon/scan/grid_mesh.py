@@ -82,8 +82,8 @@ def face_mask(scan, max_incidence_deg=MAX_INCIDENCE_DEG):
     for top in range(0, height - 1, step):
         strip = slice(top, min(top + step, height - 1) + 1)
         valid, points = scan.valid[strip, columns], scan.points[strip, columns]
-        across = valid[:, :-1] & valid[:, 1:] & ~_is_jump(points[:, :-1], points[:, 1:], max_incidence_deg)
-        down = valid[:-1] & valid[1:] & ~_is_jump(points[:-1], points[1:], max_incidence_deg)
+        across = valid[:, :-1] & valid[:, 1:] & ~is_jump(points[:, :-1], points[:, 1:], max_incidence_deg)
+        down = valid[:-1] & valid[1:] & ~is_jump(points[:-1], points[1:], max_incidence_deg)
         mask[top : top + len(valid) - 1] = across[:-1] & across[1:] & down[:, :-1] & down[:, 1:]
     return mask
 
@@ -106,7 +106,7 @@ def quads_of(mask, vertex):
     return quads
 
 
-def _is_jump(p, q, max_incidence_deg):
+def is_jump(p, q, max_incidence_deg):
     """Whether the edge between two (..., 3) points is nearly parallel to the viewing ray to its middle."""
     edge, ray = q - p, q + p
     along = np.abs(np.einsum("ijk,ijk->ij", edge, ray))

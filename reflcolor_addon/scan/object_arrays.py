@@ -24,6 +24,8 @@ class ObjectArrays:
         Width of a pixel over its height.
     units_per_metre : float
         Of the coordinates.
+    max_incidence_deg : float
+        As in `grid_mesh`.
     center : (3,) float64
         What the coordinates are measured from: metres, in the scanner's frame.
     pose : (4, 4) float64
@@ -46,6 +48,7 @@ class ObjectArrays:
     shape: tuple[int, int]
     pixel_aspect: float
     units_per_metre: float
+    max_incidence_deg: float
     center: np.ndarray
     pose: np.ndarray
     coordinates: np.ndarray
@@ -81,6 +84,7 @@ def object_arrays(scan, *, units_per_metre=1.0, max_incidence_deg=MAX_INCIDENCE_
         shape=scan.shape,
         pixel_aspect=scan.pixel_aspect,
         units_per_metre=units_per_metre,
+        max_incidence_deg=max_incidence_deg,
         center=center,
         pose=pose,
         coordinates=((scan.points[valid] - center) * units_per_metre).astype(np.float32).ravel(),

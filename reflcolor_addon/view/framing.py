@@ -9,11 +9,9 @@ _WIDE_DEG = 200.0
 _OUTSIDE_FOV_DEG = 45.0
 _OUTSIDE_RISE_DEG = 40.0
 # The most that a scan may take of a picture, across or down, without looking distorted.
-_WIDEST_DEG = 70.0
-# From the scanner, in near ranges: back, and both right and up, which tells the picture from a photo. The farther
-# aside, the more is seen of the gaps behind near things.
-_BACK, _ASIDE = 0.5, 0.12
-_BACKING_OFF = 1.25
+_WIDEST_DEG = 95.0
+# What is wider is seen from behind the scanner, by this much of the near ranges or more.
+_BACK, _BACKING_OFF = 0.1, 1.25
 _STEPS = 40
 _CENTERINGS = 8
 _MARGIN = 1.05
@@ -78,8 +76,8 @@ def picture_size(aspect):
 def frame(points, scanners, *, aspect=None):
     """Return a view that shows all of a scan's surface from the side that was scanned.
 
-    A scan of a window of directions is seen from about the scanner's place, so that near and far have the room that
-    they have in the scan; from farther back where it is wider than a picture can be. A scan all around, or scans from
+    A scan of a window of directions is seen from the scanner's place, from where there are no gaps behind near things;
+    from farther back where it is wider than a picture can be. A scan all around, or scans from
     several places, are seen obliquely from above, as one looks into a doll's house.
 
     Parameters
@@ -106,10 +104,9 @@ def frame(points, scanners, *, aspect=None):
     right = np.array([heading[1], -heading[0], 0.0])
     if len(scanners) > 1 or _covered_deg(rays) > _WIDE_DEG:
         return _from_outside(points, heading, right, aspect)
-    near = np.percentile(distance, 5)
-    beside = scanner + near * _ASIDE * (right + [0, 0, 1])
-    for step in range(_STEPS):
-        view, taken_deg = _looking_from(beside - near * _BACK * _BACKING_OFF**step * heading, points, aspect)
+    back = np.percentile(distance, 5) * _BACK * np.append(0.0, _BACKING_OFF ** np.arange(_STEPS))
+    for length in back:
+        view, taken_deg = _looking_from(scanner - length * heading, points, aspect)
         if taken_deg <= _WIDEST_DEG:
             break
     return view
@@ -188,9 +185,16 @@ def _looking_from(position, points, aspect):
             return View(position=position, target=position + forward, fov_deg=180.0, aspect=aspect or 1.0), 180.0
         seen = np.stack([offsets[in_front] @ right, offsets[in_front] @ up], axis=1) / depth[in_front, None]
         low, high = np.percentile(seen, (_STRAY, 100 - _STRAY), axis=0)
-        aim = forward + right * (low[0] + high[0]) / 2 + up * (low[1] + high[1]) / 2
-        forward = aim / np.linalg.norm(aim)
-    half_width, half_height = np.maximum((high - low) / 2 * _MARGIN, 1e-6)
+        # The last direction is one that was looked at.
+        half_width, half_height = np.maximum(np.maximum(-low, high) * _MARGIN, 1e-6)
+        # Halfway between the edges as angles: turned there, they are about as far off at both sides.
+        center = np.tan((np.arctan(low) + np.arctan(high)) / 2)
+        if np.abs(center).max() < 0.002 * (high - low).max():
+            break
+        aim = forward + right * center[0] + up * center[1]
+        looked, forward = forward, aim / np.linalg.norm(aim)
+    else:
+        forward = looked
     aspect = aspect or float(np.clip(half_width / half_height, *_SHAPES))
     widest = max(half_width, half_height * aspect) if aspect >= 1 else max(half_width / aspect, half_height)
     distance = max(float(np.median(depth)), _CLOSEST)

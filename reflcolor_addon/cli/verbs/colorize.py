@@ -5,7 +5,8 @@ from pathlib import Path
 from ...batch.pipeline import run_plan
 from ...batch.plan import IMAGE, MESH, RENDER, REPORT, RESULT_SUFFIXES, SCANS, SCENE, Output, Plan, result_output
 from ...errors import UsageError
-from ..options import add_matching, add_photos, add_propagation, add_scans, reading_of, settings_of
+from ...view.picture import Picture
+from ..options import add_matching, add_photos, add_picture, add_propagation, add_scans, reading_of, settings_of
 
 NAME = "colorize"
 HELP = "color scans from seeds or photos"
@@ -37,7 +38,7 @@ def add_arguments(parser):
         help=f"file to write, once for each: {images} (colorized reflectance image), {meshes} (colored mesh), "
         f"{scans} (the scans with colors, a copy of a file of that kind), or in Blender {scenes}",
     )
-    parser.add_argument("--render", metavar="PNG", type=Path, help="picture of the colored mesh (in Blender)")
+    add_picture(parser)
     parser.add_argument("--report", metavar="JSON", type=Path, help="what was done, and a hash of every input")
 
 
@@ -63,5 +64,6 @@ def run(arguments, session):
         photos=tuple(arguments.photo),
         settings=settings_of(arguments),
         outputs=tuple(outputs),
+        picture=Picture(look=arguments.look, filled=not arguments.as_measured, drop_mixed=not arguments.keep_mixed),
     )
     run_plan(plan, session)
