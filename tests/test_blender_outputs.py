@@ -20,7 +20,7 @@ READ_BLEND = """
 import bpy, json, os, sys
 import numpy as np
 bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
-(obj,) = [o for o in bpy.data.objects if o.type == "MESH"]
+(obj,) = [o for o in bpy.context.scene.objects if o.type == "MESH"]
 colors = obj.data.color_attributes
 rgba = np.empty(4 * len(obj.data.vertices), np.float32)
 colors["Colorized"].data.foreach_get("color_srgb", rgba)

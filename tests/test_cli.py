@@ -13,10 +13,11 @@ from gltf_files import Glb, encoded
 from plyfile import PlyData
 from small_scans import random_scan
 
-from reflcolor_addon import OutputError, Seeds, Settings, colorize, read_scans
+from reflcolor_addon import OutputError, Scan, Seeds, Settings, colorize, read_scans
 from reflcolor_addon.files.images import read_image, write_png
 from reflcolor_addon.files.writers import write_image_pair, write_ptx
 from reflcolor_addon.version import __version__
+from reflcolor_addon.view.picture import Picture
 
 
 def test_colorize_writes_the_colorized_reflectance_image(run_cli, cli_folder):
@@ -320,3 +321,33 @@ def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cl
     )
     assert_refused(outcome, 1, "b.usd: cannot be written", "; already written: a.blend\n")
     assert not (cli_folder / "c.png").exists()
+
+
+# Seeds from the scan's own colors
+
+
+def test_seeds_come_from_the_colors_of_the_scan(run_cli, cli_folder):
+    scan, rgb = random_scan(1, (6, 10)), np.random.default_rng(0).integers(1, 256, (6, 10, 3), np.uint8)
+    colored = Scan(name="hall", points=scan.points, reflectance=scan.reflectance, valid=scan.valid, color=rgb)
+    write_ptx(colored, cli_folder / "hall.ptx")
+    status, out, err = run_cli("seeds", "hall.ptx", "--from-color", "12", "-o", "hall.json")
+    assert (status, out, err) == (0, "wrote hall.json: 12 seeds\n", "")
+    assert Seeds.load(cli_folder / "hall.json").reason == ("scan",) * 12
+    assert_refused(run_cli("seeds", "garage.ptx", "--from-color", "5", "-o", "x.json"), 1, "came without colors")
+    both = ("seeds", "hall.ptx", "--from-color", "5", "--photo", "a.png", "-o", "x.json")
+    assert_refused(run_cli(*both), 2, "--photo: has no part in seeds from the scan's own colors")
+
+
+def test_a_picture_is_as_the_options_say(run_cli, cli_folder):
+    pictures = []
+
+    def write_scene(_jobs, _paths, render, picture, _progress):
+        pictures.append(picture)
+        render.touch()
+
+    for options in ((), ("--look", "lit", "--as-measured", "--keep-mixed")):
+        outcome = run_cli(
+            *COLORIZE, "-o", "a.png", "--render", "r.png", *options, blender=blender_tasks(write_scene=write_scene)
+        )
+        assert outcome[0] == 0, outcome
+    assert pictures == [Picture(), Picture(look="lit", filled=False, drop_mixed=False)]

@@ -4,6 +4,8 @@ A modifier joins it to the scan's mesh, in renders only unless a person turns it
 and all that is measured on it, stays as it is. What is added has the attribute ``filled`` of 1.
 """
 
+from contextlib import contextmanager
+
 import bpy
 import numpy as np
 
@@ -66,6 +68,20 @@ def remove_surface(obj):
     bpy.data.node_groups.remove(group)
     if added is not None and not added.users:
         bpy.data.meshes.remove(added.data)
+
+
+@contextmanager
+def as_measured(objects):
+    """Within the block, viewports show the measured surface of scans' objects alone."""
+    modifiers = [obj.modifiers[MODIFIER] for obj in objects if MODIFIER in obj.modifiers]
+    shown = [modifier for modifier in modifiers if modifier.show_viewport]
+    for modifier in shown:
+        modifier.show_viewport = False
+    try:
+        yield
+    finally:
+        for modifier in shown:
+            modifier.show_viewport = True
 
 
 def switch_surface(obj, *, shown, drop_mixed):

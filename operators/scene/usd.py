@@ -6,6 +6,7 @@ import bpy
 
 from .nodes import show_in_material
 from .scan_object import SHOWN_IN_RENDERS, add_colors, colors_of, shown_in_renders
+from .shown_surface import as_measured
 
 # The color that viewers show without a material, and that the preview surface reads.
 _DISPLAY_COLOR = "displayColor"
@@ -25,11 +26,12 @@ def write_usd(context, objects, path):
         Absolute; its suffix is .usd, .usda or .usdc.
     """
     selected, active = context.selected_objects, context.view_layer.objects.active
-    with _displayed(objects), _selected(context, objects, selected, active):
+    with _displayed(objects), as_measured(objects), _selected(context, objects, selected, active):
         bpy.ops.wm.usd_export(
             filepath=str(path),
             check_existing=False,
             selected_objects_only=True,
+            evaluation_mode="VIEWPORT",
             export_materials=True,
             generate_preview_surface=True,
             export_custom_properties=False,

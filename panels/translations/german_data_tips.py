@@ -39,6 +39,7 @@ _SEEDS = {
         "Die Auswahl behalten; ein ausgewählter Saatpunkt wird abgewählt"
     ),
     "Let the selected seeds be replaced": "Die ausgewählten Saatpunkte ersetzen lassen",
+    "Measured by the scanner itself": "Vom Scanner selbst gemessen",
     "Name of a loaded photo": "Name eines geladenen Fotos",
     "Name of a loaded photo; its color at Point is taken if given": (
         "Name eines geladenen Fotos; ist er gegeben, wird seine Farbe am Punkt genommen"

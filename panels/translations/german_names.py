@@ -232,6 +232,7 @@ _CHOICES = {
     "Range": "Entfernung",
     "Reflectance": "Reflektanz",
     "Sample": "Farbe nehmen",
+    "Scan": "Scan",
     "Scanned Color": "Gescannte Farbe",
     "Scene Camera": "Szenenkamera",
     "Set": "Setzen",

@@ -48,6 +48,7 @@ _PANELS = {
     "{count} seeds found by a photo's camera": "{count} Saatpunkte durch die Kamera eines Fotos",
     "{count} seeds found by a photo's homography": "{count} Saatpunkte durch die Homographie eines Fotos",
     "{count} seeds found by likeness": "{count} Saatpunkte durch Ähnlichkeit",
+    "{count} seeds in the scan's own colors": "{count} Saatpunkte in den Farben des Scans selbst",
     "{count} seeds picked in a photo": "{count} Saatpunkte aus einem Foto gepickt",
     "{count} seeds with a color given by hand": "{count} Saatpunkte mit Farbe von Hand",
     "{count} scans selected": "{count} Scans ausgewählt",

@@ -189,12 +189,9 @@ _SETTINGS = {
     "Every seed colors every pixel, as the paper has it": "Jeder Saatpunkt färbt jedes Pixel, wie veröffentlicht",
     "Where light and dark come from: 0 the reflectance, which has no shadows; 1 the photo and picked colors": (
         "Woher Hell und Dunkel kommen: 0 von der Reflektanz, die keine Schatten hat; 1 vom Foto und gewählten Farben"
+    ),
     "Fill small holes and smooth outlines in pictures; the scan's mesh stays as it was measured": (
         "In Bildern kleine Löcher füllen und Umrisse glätten; das Netz des Scans bleibt, wie es gemessen wurde"
-    ),
-    "How light the colors are: 0 as the reflectance, which has no shadows; 1 as the photo; not in the paper": (
-        "Wie hell die Farben sind: 0 wie die Reflektanz, die keine Schatten hat; 1 wie das Foto; "
-        "nicht in der Veröffentlichung"
     ),
     "As Enhanced, and as light as the photo: light and dark are spread from the seeds, too": (
         "Wie Verbessert, und so hell wie das Foto: auch Hell und Dunkel breiten sich von den Saatpunkten aus"

@@ -9,6 +9,7 @@ from ..errors import SeedsError
 from ..matching import match_site
 from ..messages import Message, about_scan
 from ..progress import part
+from ..seeds.scan_colors import seeds_from_color
 from .check import check_plan
 from .read import read_jobs
 from .scan_job import require_reflectance
@@ -41,7 +42,11 @@ def run_plan(plan, session):
     jobs = read_jobs(plan, given, session, times)
     for job in jobs:
         session.warnings += job.scan.warnings
-    if plan.seeds is None:
+    if plan.from_color is not None:
+        with timed(times, "seeds"):
+            for job in jobs:
+                job.seeds = seeds_from_color(job.opened(), plan.from_color)
+    elif plan.seeds is None:
         # Looking for a file of seeds is no part of it.
         del times["seeds"]
         with timed(times, "match"):

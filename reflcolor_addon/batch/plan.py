@@ -78,6 +78,8 @@ class Plan:
         A file of seeds; without one they are found in the photos.
     hand : Path, optional
         A file of seeds picked by hand, to find the others with.
+    from_color : int, optional
+        How many seeds to take from the scan's own colors instead.
     photos : tuple of Path
         Photos that the seeds name, or that seeds are found in.
     outside_files : bool
@@ -94,6 +96,7 @@ class Plan:
     wanted: str | None = None
     seeds: Path | None = None
     hand: Path | None = None
+    from_color: int | None = None
     photos: tuple[Path, ...] = ()
     outside_files: bool = False
     reading: ReadOptions = AS_IT_IS

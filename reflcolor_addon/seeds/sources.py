@@ -35,7 +35,7 @@ class Source:
     guessed: bool = False
 
 
-HAND = "hand"
+HAND, SCAN = "hand", "scan"
 # A .blend keeps the number of a source: new ones go to the end.
 SOURCES = {
     source.name: source
@@ -73,6 +73,14 @@ SOURCES = {
             "{count} seeds found by likeness",
             (240, 180, 40),
             guessed=True,
+        ),
+        Source(
+            SCAN,
+            "Scan",
+            "Measured by the scanner itself",
+            "from the scan's own colors",
+            "{count} seeds in the scan's own colors",
+            (40, 200, 210),
         ),
     )
 }

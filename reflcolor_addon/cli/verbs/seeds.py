@@ -1,5 +1,6 @@
 """The verb ``seeds``: find seeds in photos."""
 
+import argparse
 from pathlib import Path
 
 from ...batch.pipeline import run_plan
@@ -8,13 +9,20 @@ from ...errors import UsageError
 from ..options import add_matching, add_photos, add_scans, reading_of, settings_of
 
 NAME = "seeds"
-HELP = "find seeds in photos"
+HELP = "find seeds in photos, or take them from the scan's own colors"
+_MOST = 100_000
 
 
 def add_arguments(parser):
     """Declare what ``seeds`` takes."""
     add_scans(parser)
     add_photos(parser, "photos to take colors from; any camera, any place")
+    parser.add_argument(
+        "--from-color",
+        metavar="N",
+        type=_count,
+        help="take N seeds, evenly spread, from the colors that came with the scan instead",
+    )
     parser.add_argument(
         "--hand",
         metavar="SEEDS.json",
@@ -26,13 +34,23 @@ def add_arguments(parser):
     add_matching(parser)
 
 
+def _count(text):
+    count = int(text) if text.isdecimal() else 0
+    if not 1 <= count <= _MOST:
+        raise argparse.ArgumentTypeError(f"expected a whole number from 1 to {_MOST}, found {text}")
+    return count
+
+
 def run(arguments, session):
     """Find seeds of a scan, or of all scans of a site alike, in photos and write them; say what became of every photo.
 
     Of several scans each has files of its own: {scan} in the path of -o, --matches and --hand stands for its name.
     """
-    if not arguments.photo:
-        raise UsageError("--photo: give at least one photo to take colors from")
+    of_photos = {"--photo": arguments.photo, "--hand": arguments.hand, "--matches": arguments.matches}
+    if arguments.from_color is None and not arguments.photo:
+        raise UsageError("--photo: give at least one photo to take colors from, or --from-color")
+    for option in (option for option, given in of_photos.items() if given and arguments.from_color is not None):
+        raise UsageError("{option}: has no part in seeds from the scan's own colors (--from-color)", option=option)
     outputs = []
     for option, path, suffix, kind in (
         ("-o", arguments.output, ".json", SEEDS),
@@ -50,6 +68,7 @@ def run(arguments, session):
         outside_files=arguments.outside_files,
         reading=reading_of(arguments),
         hand=arguments.hand,
+        from_color=arguments.from_color,
         photos=tuple(arguments.photo),
         settings=settings_of(arguments),
         outputs=tuple(outputs),
