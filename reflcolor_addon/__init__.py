@@ -4,37 +4,33 @@ The method is that of Oishi, Kurazume, Iwashita and Hasegawa, "Colorization of 3
 Reflectivity" (ICRA 2013). Everything here works on plain NumPy arrays and needs no Blender.
 """
 
-from .color.colorization import Colorization
-from .color.colorizer import Colorizer, colorize
-from .color.evaluation import evaluate
-from .errors import Cancelled, ImageError, OutputError, ReflcolorError, ScanError, SeedsError, SettingsError
-from .files.readers import read_scans
-from .geodesic.distances import geodesic_distances
-from .matching import draw_matches, match_photos, match_seeds
-from .scan.scan import Scan
-from .seeds.seeds import Seeds
-from .settings import Settings
-from .version import __version__
+from importlib import import_module
 
-__all__ = [
-    "Cancelled",
-    "Colorization",
-    "Colorizer",
-    "ImageError",
-    "OutputError",
-    "ReflcolorError",
-    "Scan",
-    "ScanError",
-    "Seeds",
-    "SeedsError",
-    "Settings",
-    "SettingsError",
-    "__version__",
-    "colorize",
-    "draw_matches",
-    "evaluate",
-    "geodesic_distances",
-    "match_photos",
-    "match_seeds",
-    "read_scans",
-]
+_MODULES = {
+    "color.colorization": ("Colorization",),
+    "color.colorizer": ("Colorizer", "colorize"),
+    "color.evaluation": ("evaluate",),
+    "errors": ("Cancelled", "ImageError", "OutputError", "ReflcolorError", "ScanError", "SeedsError", "SettingsError"),
+    "files.readers": ("read_scans",),
+    "geodesic.distances": ("geodesic_distances",),
+    "matching": ("draw_matches", "match_photos", "match_seeds"),
+    "scan.scan": ("Scan",),
+    "seeds.seeds": ("Seeds",),
+    "settings": ("Settings",),
+    "version": ("__version__",),
+}
+_HOMES = {name: module for module, names in _MODULES.items() for name in names}
+__all__ = list(_HOMES)
+
+
+def __getattr__(name):
+    """Import what is asked for when it is first asked for: the command line answers a signal before NumPy is there."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

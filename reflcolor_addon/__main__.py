@@ -2,17 +2,17 @@
 
 import sys
 
+from .cli.interruption import ignore, leave_at_once
+
 
 def main():
     """Run the command line and end with its exit status."""
-    try:
-        from .cli.main import main as run
+    leave_at_once()
+    from .cli.main import main as run
 
-        prog = "python -m reflcolor_addon" if sys.argv[0].endswith("__main__.py") else "reflcolor"
-        status = run(sys.argv[1:], prog=prog)
-    except KeyboardInterrupt:  # before the command line listens for it
-        print("error: interrupted", file=sys.stderr)
-        status = 130
+    prog = "python -m reflcolor_addon" if sys.argv[0].endswith("__main__.py") else "reflcolor"
+    status = run(sys.argv[1:], prog=prog)
+    ignore()
     sys.exit(status)
 
 

@@ -8,7 +8,7 @@ import threading
 
 import numpy as np
 import pytest
-from command_line import COLORIZE, blender_tasks, process_line
+from command_line import COLORIZE, ROOT, blender_tasks, process_line, run_process
 from small_scans import random_scan
 
 from reflcolor_addon import Cancelled, Seeds, colorize
@@ -36,7 +36,8 @@ def interrupting(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("number", "times", "status"), [(signal.SIGINT, 1, 130), (signal.SIGINT, 2, 130), (signal.SIGTERM, 1, 143)]
+    ("number", "times", "status"),
+    [(signal.SIGINT, 1, 130), (signal.SIGINT, 2, 130), (signal.SIGTERM, 1, 143), (signal.SIGHUP, 1, 129)],
 )
 def test_an_interruption_ends_it_with_nothing_written(run_cli, cli_folder, interrupting, number, times, status):
     interrupting(number, times)
@@ -118,6 +119,27 @@ def test_a_handler_that_is_not_pythons_gives_way_to_the_default(monkeypatch):
             with Interruption() as interruption:
                 signal.raise_signal(signal.SIGINT)
                 assert interruption.requested()
-        assert calls[2:] == [(signal.SIGINT, signal.SIG_DFL), (signal.SIGTERM, signal.SIG_DFL)]
+        put_back = calls[len(calls) // 2 :]
+        assert [number for number, _ in put_back] == [number for number, _ in calls[: len(put_back)]]
+        assert (signal.SIGINT, signal.SIG_DFL) in put_back
     finally:
         signal.signal(signal.SIGINT, previous)
+
+
+def test_a_run_under_nohup_goes_on_when_its_terminal_is_closed(run_cli, cli_folder, interrupting):
+    interrupting(signal.SIGHUP)
+    previous = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        assert run_cli(*COLORIZE, "-o", "out.png") == (0, "wrote out.png\n", "")
+    finally:
+        signal.signal(signal.SIGHUP, previous)
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_a_signal_while_it_starts_is_one_line(cli_folder, name):
+    # NumPy's place is taken by a module that gets the signal while it is imported.
+    (cli_folder / "numpy.py").write_text(
+        f"import signal\nsignal.raise_signal(signal.{name})\nimport time; time.sleep(60)"
+    )
+    done = run_process("info", "garage.ptx", environment={"PYTHONPATH": f"{cli_folder}{os.pathsep}{ROOT}"})
+    assert (done.returncode, done.stdout, done.stderr) == (128 + getattr(signal, name), "", "error: interrupted\n")

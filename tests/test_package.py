@@ -1,5 +1,6 @@
 """The package for Python without Blender, as `pip install .` builds it."""
 
+import ast
 import os
 import re
 import subprocess
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 from small_scans import random_scan
 
+import reflcolor_addon
 from reflcolor_addon import Seeds, __version__
 from reflcolor_addon.files.writers import write_ptx
 
@@ -62,3 +64,10 @@ def test_the_command_line_runs_as_a_program(installed, tmp_path):
 def test_the_package_says_that_it_is_typed_and_brings_its_licence(installed):
     assert (installed / "reflcolor_addon" / "py.typed").is_file()
     assert next(installed.glob("*.dist-info/licenses/LICENSE")).is_file()
+
+
+def test_what_the_package_gives_and_what_type_checkers_are_told_are_the_same():
+    stub = ast.parse((ROOT / "reflcolor_addon" / "__init__.pyi").read_text(encoding="utf-8"))
+    told = {alias.name for node in stub.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+    assert told == set(reflcolor_addon.__all__)
+    assert all(getattr(reflcolor_addon, name) is not None for name in told)

@@ -2,13 +2,12 @@
 
 from functools import wraps
 
-from ...reflcolor_addon.bundled import missing_package
-from ...reflcolor_addon.errors import ReflcolorError, UsageError
+from ...reflcolor_addon.failures import line_of
 from .texts import shown
 
 
 def reported(execute):
-    """Make an operator's method report bad input, or a package that is gone, as one line and end cancelled.
+    """Make an operator's method report bad input, or what the machine could not do, as one line and end cancelled.
 
     Anything else is a defect and surfaces.
     """
@@ -17,14 +16,11 @@ def reported(execute):
     def reporting(self, context):
         try:
             return execute(self, context)
-        except (ReflcolorError, UsageError) as error:
-            self.report({"ERROR"}, shown(error.message))
-            return {"CANCELLED"}
-        except ImportError as error:
-            missing = missing_package(error)
-            if missing is None:
+        except Exception as error:
+            line = line_of(error)
+            if line is None:
                 raise
-            self.report({"ERROR"}, shown(missing))
+            self.report({"ERROR"}, shown(line))
             return {"CANCELLED"}
 
     return reporting

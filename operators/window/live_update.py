@@ -8,6 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ...reflcolor_addon.errors import ReflcolorError
+from ...reflcolor_addon.failures import line_of
 from ...reflcolor_addon.view.live import LiveColorizer
 from ..scene import polls
 from ..scene.editors import redraw_editors
@@ -117,11 +118,12 @@ def _follow(obj):
     if result is None:
         return
     error, _message = result.error, ""
-    if isinstance(error, ReflcolorError | MemoryError):
-        _message = str(error) or "not enough memory"
+    if error is not None:
+        _message = line_of(error)
+        if _message is None:
+            _message = ""
+            raise error
         redraw_editors()
-    elif error is not None:
-        raise error
     else:
         if result.number == _live.colorizer.latest:
             _live.kept = result.colorization

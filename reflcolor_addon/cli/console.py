@@ -5,6 +5,7 @@ import shutil
 import sys
 import time
 from contextlib import suppress
+from pathlib import Path
 
 from ..errors import OutputError
 from ..messages import LONGEST_LINE, one_line
@@ -12,11 +13,27 @@ from ..messages import LONGEST_LINE, one_line
 _REDRAW_S = 0.1
 
 
+def open_standard_streams():
+    """Open standard input, output and error on nothing where they are closed.
+
+    Otherwise the next files that are opened get their numbers, and what native code prints would go into those.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            # The system gives the lowest number that is free, which is this one.
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)
+    for number, name in enumerate(("stdout", "stderr"), 1):
+        if getattr(sys, name) is None:
+            setattr(sys, name, os.fdopen(number, "w", encoding="utf-8", closefd=False))
+
+
 class Console:
     """Writes lines, one at a time, whatever is in them; shows progress where standard error is a terminal."""
 
     def __init__(self):
-        self._is_terminal = sys.stderr is not None and sys.stderr.isatty()
+        self._is_terminal = sys.stderr.isatty()
         self._shown = 0
         self._next_redraw = 0.0
 
@@ -36,6 +53,14 @@ class Console:
             _silence(sys.stdout)
             if not isinstance(error, BrokenPipeError):
                 raise OutputError(f"standard output: cannot be written ({error.strerror})") from error
+
+    def finish(self):
+        """Write out what is still held back, so that the interpreter's own way out has nothing to complain of."""
+        for stream in (sys.stdout, sys.stderr):
+            try:
+                stream.flush()
+            except OSError:
+                _silence(stream)
 
     def warn(self, text):
         """Write one line ``warning: ...`` to standard error."""
@@ -65,10 +90,12 @@ class Console:
             self._shown = 0
 
     def _write(self, text):
-        # Standard error is the last place to complain at.
-        with suppress(OSError):
+        try:
             sys.stderr.write(_encodable(text, sys.stderr))
             sys.stderr.flush()
+        except OSError:
+            # Standard error is the last place to complain at.
+            _silence(sys.stderr)
 
 
 def _encodable(text, stream):
@@ -78,6 +105,5 @@ def _encodable(text, stream):
 
 def _silence(stream):
     """Send what is still to come, the interpreter's last flush too, to nowhere."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, stream.fileno())
-    os.close(nowhere)
+    with suppress(OSError), Path(os.devnull).open("wb") as nowhere:
+        os.dup2(nowhere.fileno(), stream.fileno())

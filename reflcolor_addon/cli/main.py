@@ -1,20 +1,21 @@
 """The command line: one parser for ``python -m reflcolor_addon`` and ``blender -b --command reflcolor``.
 
-Exit status: 0 done, 1 bad input, 2 wrong usage, 130 interrupted. Whatever is wrong is said in one line.
+Exit status: 0 done, 1 bad input, 2 wrong usage, 130, 143 or 129 interrupted. Whatever is wrong is said in one line.
 """
 
 import argparse
 from functools import partial
 
 from ..batch.session import Session
-from ..bundled import missing_package
-from ..errors import Cancelled, ReflcolorError, UsageError
+from ..errors import Cancelled, UsageError
+from ..failures import line_of
 from ..version import __version__
-from .console import Console
+from .console import Console, open_standard_streams
 from .interruption import Interruption
 from .verbs import VERBS
 
 DONE, BAD_INPUT, WRONG_USAGE = 0, 1, 2
+_INTERRUPTED = "interrupted"
 
 
 def main(argv, *, prog="python -m reflcolor_addon", blender=None):
@@ -29,42 +30,51 @@ def main(argv, *, prog="python -m reflcolor_addon", blender=None):
     blender : BlenderTasks, optional
         What only Blender can do. Without it, asking for that is wrong usage.
     """
-    console = Console()
-    try:
-        arguments = _parser(prog).parse_args(argv)
-    except UsageError as error:
-        console.error(str(error))
-        return WRONG_USAGE
-    except SystemExit as end:  # how argparse ends after --help and --version
-        return int(end.code or 0)
     with Interruption() as interruption:
+        open_standard_streams()
+        console = Console()
         session = Session(say=console.print, show=console.progress, cancelled=interruption.requested, blender=blender)
         try:
-            arguments.run(arguments, session)
-            for warning in session.warnings:
-                console.warn(warning)
-            return DONE
-        except UsageError as error:
-            console.error(str(error))
-            return WRONG_USAGE
-        except (Cancelled, KeyboardInterrupt):
-            status, message = interruption.exit_status, "interrupted"
-        except ReflcolorError as error:
-            # A signal can surface as the failure of whatever it struck.
-            status = interruption.exit_status if interruption.requested() else BAD_INPUT
-            message = str(error)
-        except ImportError as error:
-            message = missing_package(error)
-            if message is None:
-                raise
-            status = BAD_INPUT
-        except MemoryError:
-            files = arguments.input if isinstance(arguments.input, list) else [arguments.input]
-            status, message = BAD_INPUT, f"{', '.join(map(str, files))}: not enough memory for a scan of this size"
-    if session.written:
-        message += f"; already written: {', '.join(map(str, session.written))}"
-    console.error(message)
-    return status
+            status, line = _outcome(argv, prog, session, console, interruption)
+        except KeyboardInterrupt:  # a second signal, of one who does not want to wait
+            status, line = interruption.exit_status, _INTERRUPTED
+        if line is not None:
+            written = f"; already written: {', '.join(map(str, session.written))}" if session.written else ""
+            console.error(line + written)
+        console.finish()
+        return status
+
+
+def _outcome(argv, prog, session, console, interruption):
+    """Run a command; return the exit status and, where it failed, the line that says why."""
+    files = ""
+    try:
+        arguments = _parser(prog).parse_args(argv)
+        files = ", ".join(map(str, _inputs(arguments)))
+        arguments.run(arguments, session)
+        for warning in session.warnings:
+            console.warn(warning)
+        return DONE, None
+    except SystemExit as end:  # how argparse ends after --help and --version
+        return int(end.code or 0), None
+    except Cancelled:
+        return interruption.exit_status, _INTERRUPTED
+    except Exception as error:
+        line = line_of(error)
+        if line is None:
+            raise
+        # A signal can surface as the failure of whatever it struck.
+        if interruption.requested():
+            return interruption.exit_status, _INTERRUPTED
+        if isinstance(error, MemoryError) and files:
+            line = f"{files}: {line}"
+        return WRONG_USAGE if isinstance(error, UsageError) else BAD_INPUT, line
+
+
+def _inputs(arguments):
+    """The files that a command works on."""
+    given = arguments.input
+    return given if isinstance(given, list) else [given] * (given is not None)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -78,7 +88,7 @@ def _parser(prog):
     parser = _Parser(
         prog=prog,
         description="Color for laser scans that have none, from a few seeds.",
-        epilog="Exit status: 0 done, 1 bad input, 2 wrong usage, 130 interrupted.",
+        epilog="Exit status: 0 done, 1 bad input, 2 wrong usage, 130, 143 or 129 interrupted.",
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"reflcolor {__version__}")

@@ -27,7 +27,6 @@ from ..errors import Cancelled, ReflcolorError
 from ..native.library import (
     ABI_VERSION,
     MAX_CHANNELS,
-    NO_MEMORY,
     SHORT,
     CGraph,
     Control,
@@ -130,7 +129,7 @@ class Graph:
         try:
             plane = np.frombuffer(mmap.mmap(-1, self._y.size * depth * 4, **_PRIVATE), np.float32)
         except (OSError, OverflowError) as error:
-            raise MemoryError(NO_MEMORY) from error
+            raise MemoryError from error
         grid = plane[: (height + 2) * (width + 2) * depth].reshape(height + 2, width + 2, depth)[1:-1, 1:-1]
         return plane, grid
 

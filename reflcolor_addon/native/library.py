@@ -15,7 +15,6 @@ ABI_VERSION = 6
 MAX_CHANNELS = 4
 """Values that a seed can have, of which means and sums are taken."""
 
-NO_MEMORY = "the kernel ran out of memory: use a larger stride or fewer nearest seeds"
 OK, _CANCELLED, _MEMORY = 0, 1, 2
 SHORT, BAD_VALUE = 3, -3
 _REFUSED = {
@@ -129,7 +128,7 @@ def check(code):
     if code == _CANCELLED:
         raise Cancelled
     if code == _MEMORY:
-        raise MemoryError(NO_MEMORY)
+        raise MemoryError
     if code != OK:
         raise ReflcolorError(f"the kernel refused {_REFUSED.get(code, f'its arguments (code {code})')}")
 
