@@ -63,7 +63,11 @@ def test_switched_off_nothing_is_laid_over_but_a_preview_is(imported, wipe):
     assert laid_over(wipe, imported, "range_image") == (state.preview_image, 0.25, 1.0)
 
 
-def test_disabling_takes_it_away(installed_blender, wipe):
-    wipe.unregister()
-    assert not hasattr(installed_blender.types.WindowManager, "reflcolor_wipe") and not wipe._handles
-    wipe.register()
+def test_disabling_takes_it_away(installed_blender):
+    window_manager = installed_blender.types.WindowManager
+    assert hasattr(window_manager, "reflcolor_wipe")
+    installed_blender.ops.preferences.addon_disable(module=EXTENSION)
+    try:
+        assert not hasattr(window_manager, "reflcolor_wipe")
+    finally:
+        installed_blender.ops.preferences.addon_enable(module=EXTENSION)
