@@ -5,6 +5,7 @@
 # make build   the extension's zip for this machine and this Python, in dist/
 # make dist    the zip to hand out: for this platform, with the wheels of every Python that a Blender runs
 # make dist-all  the same for every platform that has the wheels
+# make release  what a release hands out, in dist/release: every zip, SHA256SUMS, the index of an extension repository
 # make bench   how fast the engine is, beside others (python -m benchmarks.geodesic); a quarter of an hour
 # make bench-job  the whole job, part by part, beside an older build (python -m benchmarks.job); hours; BASE=checkout
 # make fuzz    random images through the kernel under sanitizers (tools/fuzz_kernel.sh); a few minutes
@@ -27,7 +28,7 @@ KINDS ?= plain blender
 NEWEST_BPY = 5.3.0
 BPY = build/bpy-$(NEWEST_BPY)
 
-.PHONY: help setup kernel build dist dist-all demo bench bench-job fuzz check format test test-one test-newest test-all test-window lock clean distclean
+.PHONY: help setup kernel build dist dist-all release demo bench bench-job fuzz check format test test-one test-newest test-all test-window lock clean distclean
 
 help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
@@ -49,6 +50,11 @@ dist-all: setup
 	@rm -rf build/kernel-wheels
 	@$(RUN) kernel/build.py build/kernel-wheels
 	@$(RUN) tools/build_extension.py --python all --platform all
+
+release: setup
+	@rm -rf build/kernel-wheels
+	@$(RUN) kernel/build.py build/kernel-wheels
+	@$(RUN) tools/release.py
 
 demo: build
 	@$(RUN) tools/demo.py

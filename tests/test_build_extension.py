@@ -5,12 +5,14 @@ import zipfile
 
 import pytest
 from build_extension import (
+    BUDGETS,
     MANIFEST,
     PLATFORMS,
     BuildError,
     build,
     matching_wheels,
     read_pins,
+    require_budget,
     sha256,
     stage_sources,
     staged_manifest,
@@ -52,6 +54,17 @@ def test_stage_holds_what_the_manifest_lets_in(tmp_path):
     assert {"__init__.py", "LICENSE", "operators", "panels", "reflcolor_addon"} <= staged
     assert not staged & {"tests", "tools", "kernel", "examples", "benchmarks", "requirements", ".git"}
     assert not list(tmp_path.rglob("__pycache__"))
+
+
+def test_a_zip_above_its_budget_is_refused_and_taken_away(tmp_path, monkeypatch):
+    heavy = tmp_path / "heavy.zip"
+    heavy.write_bytes(bytes(1_000_001))
+    monkeypatch.setitem(BUDGETS, 1, 1.5)
+    require_budget(heavy, 1)
+    monkeypatch.setitem(BUDGETS, 1, 1)
+    with pytest.raises(BuildError, match=r"heavy\.zip would be 1\.0 MB, above its budget of 1 MB"):
+        require_budget(heavy, 1)
+    assert not heavy.exists()
 
 
 def test_numpy_is_not_pinned_for_the_zip():

@@ -1,6 +1,5 @@
 """The zip as Blender takes it: what is in it, that it validates and installs, and that disabling leaves nothing."""
 
-import hashlib
 import importlib
 import inspect
 import sys
@@ -12,8 +11,9 @@ from pathlib import Path, PurePosixPath
 import pytest
 from blender_cli import blender_ext
 from blender_session import EXTENSION
-from build_extension import PLATFORMS, host_platform, read_pins
+from build_extension import host_platform, pinned_wheels, running_python
 from footprint import footprint
+from trim_wheels import faults, trimmed_name
 
 from reflcolor_addon.version import __version__
 
@@ -83,15 +83,14 @@ def test_manifest_lists_the_wheels_of_the_zip(contents, manifest):
     assert manifest["wheels"] == sorted(f"./{name}" for name in contents if name.startswith("wheels/"))
 
 
-def test_every_bundled_wheel_is_pinned_by_its_hash(contents):
-    pins = read_pins()
-    bundled = {}
-    for name, data in contents.items():
-        if name.startswith("wheels/") and not name.startswith("wheels/reflcolor_kernel-"):
-            package = PurePosixPath(name).name.split("-")[0].lower().replace("_", "-")
-            assert f"sha256:{hashlib.sha256(data).hexdigest()}" in pins[package], name
-            bundled[package] = name
-    assert set(bundled) == set(pins) - set(PLATFORMS[host_platform()].without)
+def test_every_bundled_wheel_is_a_pinned_one_trimmed(contents, tmp_path):
+    pinned = {trimmed_name(wheel.name): wheel for wheel in pinned_wheels(host_platform(), running_python())}
+    bundled = {Path(name).name: data for name, data in contents.items() if name.startswith("wheels/")}
+    (kernel,) = [name for name in bundled if name.startswith("reflcolor_kernel-")]
+    assert set(bundled) == {kernel, *pinned}
+    for name, wheel in pinned.items():
+        (tmp_path / name).write_bytes(bundled[name])
+        assert faults(wheel, tmp_path / name) == [], name
 
 
 def test_numpy_is_left_to_blender(contents):

@@ -1,4 +1,4 @@
-"""Blender's own extension tool, which lies as a script inside the bpy wheel: build and validate."""
+"""Blender's own extension tool, which lies as a script inside the bpy wheel: build, validate, index a repository."""
 
 import importlib.util
 import subprocess
@@ -10,9 +10,10 @@ TOOL = "addons_core/bl_pkg/cli/blender_ext.py"
 
 
 def blender_ext(command: str, *arguments: str | Path) -> None:
-    """Run one command of the tool, with Blender's list of tags; ends the program with its message where it fails."""
+    """Run one command of the tool; ends the program with its message where it fails."""
     scripts = bpy_scripts()
-    line = [sys.executable, str(scripts / TOOL), command, "--valid-tags", str(scripts / TAGS), *map(str, arguments)]
+    tags = ["--valid-tags", str(scripts / TAGS)] if command in ("build", "validate") else []
+    line = [sys.executable, str(scripts / TOOL), command, *tags, *map(str, arguments)]
     done = subprocess.run(line, check=False, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"blender_ext {command}: {(done.stderr or done.stdout).strip()}")

@@ -2,8 +2,9 @@
 
 For every platform one zip in dist/, with the wheels of all the Pythons asked for: by default this machine's platform
 and the running Python, the quick build that the tests install; `--python all` makes the zip to hand out. The wheels are
-those that requirements/wheels.txt pins by hash (kept in build/wheels/) and the geodesic kernel's from
-build/kernel-wheels/. Blender's own builder packs and validates; the zip's bytes depend on the sources alone.
+those that requirements/wheels.txt pins by hash (kept in build/wheels/), trimmed by tools/trim_wheels.py (kept in
+build/trimmed/), and the geodesic kernel's from build/kernel-wheels/. Blender's own builder packs and validates; the
+zip's bytes depend on the sources alone. A zip above its budget is an error.
 """
 
 import argparse
@@ -20,18 +21,22 @@ import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
+import trim_wheels
 from blender_cli import blender_ext
 
 ROOT = Path(__file__).resolve().parent.parent
 MANIFEST = ROOT / "blender_manifest.toml"
 PINS = ROOT / "requirements" / "wheels.txt"
 WHEELS = ROOT / "build" / "wheels"
+TRIMMED = ROOT / "build" / "trimmed"
 KERNEL_WHEELS = ROOT / "build" / "kernel-wheels"
 STAGES = ROOT / "build" / "stage"
 DIST = ROOT / "dist"
 
 # Blender 4.5 and 5.0 run Python 3.11, from 5.1 on 3.13; Debian builds Blender 5.2 with its own 3.14.
 PYTHONS = ("3.11", "3.13", "3.14")
+# The most that a zip may weigh, in MB (10^6 bytes), by how many Pythons it is for.
+BUDGETS = {1: 100, 2: 140, 3: 175}
 ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
@@ -73,7 +78,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--platform", action="append", metavar="NAME", help=f"all, or {', '.join(PLATFORMS)}")
     parser.add_argument("--python", action="append", choices=[*PYTHONS, "all"])
+    parser.add_argument("--unpack", action="store_true", help="the trimmed wheels into a folder, for tests; prints it")
     args = parser.parse_args()
+    if args.unpack:
+        print(unpacked())
+        return
     platforms = tuple(PLATFORMS) if "all" in (args.platform or ()) else tuple(args.platform or (host_platform(),))
     pythons = PYTHONS if "all" in (args.python or ()) else tuple(args.python or (running_python(),))
     try:
@@ -114,9 +123,8 @@ def build(platform_name: str, pythons: tuple[str, ...]) -> Path:
         reason = UNAVAILABLE.get(platform_name, "Blender has no such platform")
         raise BuildError(f"no zip for {platform_name}: {reason}; there are {', '.join(PLATFORMS)}")
     output = zip_path(platform_name, pythons)
-    wheels = sorted(
-        {wheel.name: wheel for version in pythons for wheel in pinned_wheels(platform_name, version)}.values()
-    ) + kernel_wheels(platform_name)
+    pinned = {wheel.name: wheel for version in pythons for wheel in pinned_wheels(platform_name, version)}
+    wheels = sorted(trimmed_wheel(wheel) for wheel in pinned.values()) + kernel_wheels(platform_name)
     stage = STAGES / output.stem
     shutil.rmtree(stage, ignore_errors=True)
     (stage / "wheels").mkdir(parents=True)
@@ -133,7 +141,23 @@ def build(platform_name: str, pythons: tuple[str, ...]) -> Path:
     packed.unlink()
     shutil.rmtree(stage)
     blender_ext("validate", output)
+    require_budget(output, len(pythons))
     return output
+
+
+def require_budget(zip_file: Path, pythons: int) -> None:
+    """Raise a BuildError where a zip is heavier than it may be, and take it away."""
+    size, most = zip_file.stat().st_size / 1e6, BUDGETS[pythons]
+    if size > most:
+        zip_file.unlink()
+        raise BuildError(f"{zip_file.name} would be {size:.1f} MB, above its budget of {most} MB (BUDGETS)")
+
+
+def trimmed_wheel(wheel: Path) -> Path:
+    """The trimmed copy of a pinned wheel, kept until the wheel or the trimming changes."""
+    rules = hashlib.sha256(Path(trim_wheels.__file__).read_bytes() + sha256(wheel).encode()).hexdigest()[:16]
+    kept = TRIMMED / rules / trim_wheels.trimmed_name(wheel.name)
+    return kept if kept.is_file() else trim_wheels.trim_wheel(wheel, kept.parent)
 
 
 def stage_sources(stage: Path) -> None:
@@ -209,6 +233,21 @@ def kernel_wheels(platform_name: str) -> list[Path]:
             " make kernel builds this machine's, make dist-all all"
         )
     return wheels
+
+
+def unpacked() -> Path:
+    """A folder with the packages of this machine's trimmed wheels, made anew where the wheels have changed."""
+    wheels = [trimmed_wheel(wheel) for wheel in pinned_wheels(host_platform(), running_python())]
+    folder = TRIMMED / f"cp{running_python().replace('.', '')}"
+    stamp = folder / "wheels.txt"
+    names = "\n".join(str(wheel.relative_to(TRIMMED)) for wheel in wheels)
+    if not stamp.is_file() or stamp.read_text(encoding="utf-8") != names:
+        shutil.rmtree(folder, ignore_errors=True)
+        for wheel in wheels:
+            with zipfile.ZipFile(wheel) as archive:
+                archive.extractall(folder)
+        stamp.write_text(names, encoding="utf-8")
+    return folder
 
 
 def link_or_copy(source: Path, target: Path) -> None:
