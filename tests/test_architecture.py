@@ -1,6 +1,7 @@
 """The rooms of the house: which may import which, and that no import leads in a circle (docs/architecture.md)."""
 
 import ast
+import re
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -34,6 +35,8 @@ BLENDER_ROOMS = {
     "operators": {"operators.scene", "operators.overlays", "operators.window"},
     "panels": {"operators", "operators.scene", "operators.overlays", "operators.window"},
 }
+
+_ROW = re.compile(r"^\| `([\w/]+)` \| [^|]+ \| ([^|]*?) ?\|$", re.MULTILINE)
 
 
 def _module_name(path):
@@ -130,3 +133,20 @@ def test_no_import_leads_in_a_circle(lazy):
     # static_order raises CycleError, which names the circle.
     graph = {module: _imports(module, lazy=lazy) - {module} for module in _modules()}
     assert set(TopologicalSorter(graph).static_order()) >= set(graph)
+
+
+def test_the_page_on_architecture_tells_the_same_rooms():
+    page = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+    told = {name: set(filter(None, allowed.split(", "))) for name, allowed in _ROW.findall(page)}
+    slashed = {
+        name.replace(".", "/"): {room.replace(".", "/") for room in rooms} for name, rooms in BLENDER_ROOMS.items()
+    }
+    assert told == ROOMS | slashed
+    (ground,) = re.findall(r"the ground floor \((.*?)\)", page, re.DOTALL)
+    assert {name.removesuffix(".py") for name in re.findall(r"`(.*?)`", ground)} == GROUND
+
+
+def test_every_place_that_the_page_on_architecture_names_is_there():
+    named = re.findall(r"`([\w/]+/[\w/]*(?:\.\w+)?)`", (ROOT / "docs" / "architecture.md").read_text("utf-8"))
+    assert len(named) > 40
+    assert [place for place in named if not (ROOT / place).exists()] == []
