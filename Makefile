@@ -8,7 +8,8 @@
 # make release  what a release hands out, in dist/release: every zip, SHA256SUMS, the index of an extension repository
 # make bench   how fast the engine is, beside others (python -m benchmarks.geodesic); a quarter of an hour
 # make bench-job  the whole job, part by part, beside an older build (python -m benchmarks.job); hours; BASE=checkout
-# make fuzz    random images through the kernel under sanitizers (tools/fuzz_kernel.sh); a few minutes
+# make fuzz    random images through the kernel under sanitizers (tools/fuzz_kernel.sh), and 100,000 files that are
+#              changed at random through every reader (python -m fuzz, in tests/); half an hour
 # make check   style and types alone;  make format  mends the style
 # make clean   removes what was built;  make distclean  the environments, too
 #
@@ -65,8 +66,9 @@ bench: setup kernel
 bench-job: build
 	@tools/bench_job.sh $(RUN) $(BASE)
 
-fuzz:
+fuzz: setup kernel
 	@tools/fuzz_kernel.sh
+	@PYTHONPATH=tests:. $(RUN) -m fuzz
 
 check: setup
 	@$(VENV)/bin/ruff check

@@ -59,7 +59,7 @@ class Message(str):
 def _tamed(value):
     if isinstance(value, Message):
         return value
-    return one_line(str(value)) if isinstance(value, str | PurePath) else value
+    return one_line(str(value)) if isinstance(value, str | PurePath | BaseException) else value
 
 
 def translated(text, look_up):

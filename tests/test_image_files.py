@@ -177,7 +177,7 @@ def png_header(width, height):
         (b"", "photo.jpg: is empty"),
         (b"not an image at all, but some words\n", "is not an image"),
         (bytes(5000), "is not an image"),
-        (encoded(RGB)[:100], "cannot be decoded: it is damaged or cut short"),
+        (encoded(RGB)[:100], "is not a whole PNG: it is damaged or cut short"),
         (encoded(RGB, ".jpg")[:30], "is not a whole JPEG"),
         (png_header(900_000, 900_000) + encoded(RGB)[33:], "claims to be 900,000 x 900,000 pixels, expected 1 to 500,"),
         (

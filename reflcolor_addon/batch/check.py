@@ -131,7 +131,7 @@ def check_photos(photos, given, warnings):
     """See that every photo is an image; warn of one that no seeds name."""
     named = {Path(name).name for seeds in given for name in seeds.photos if name}
     for path in photos:
-        read_image(path)
+        read_image(path, warnings)
         if path.name not in named:
             warnings.append(Message("{path}: no seed names this photo", path=path))
 

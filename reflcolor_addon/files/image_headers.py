@@ -65,11 +65,13 @@ def image_header(data, name):
         raise ImageError("{file}: is not an image that can be read; expected {expected}", file=name, expected=EXPECTED)
     try:
         header = _HEADERS[kind](data, name)
+        require_size(header.width, header.height, header.pixel_bytes, name, most=_MOST_UNPACKED[kind] * len(data))
+        if kind == PNG:
+            _require_chunks(data)
     except ImageError:
         raise
     except (struct.error, LookupError, ValueError):
         raise ImageError("{file}: is not a whole {kind}: it is damaged or cut short", file=name, kind=kind) from None
-    require_size(header.width, header.height, header.pixel_bytes, name, most=_MOST_UNPACKED[kind] * len(data))
     return header
 
 
@@ -93,6 +95,16 @@ def _png(data, _name):
         raise ValueError
     pixel = _PNG_CHANNELS[color] * (2 if bits == 16 else 1)
     return ImageHeader(PNG, width, height, pixel, has_alpha=color in _PNG_WITH_ALPHA)
+
+
+def _require_chunks(data):
+    """Raise ValueError where a PNG does not hold all that its chunks claim: OpenCV makes room for it, up to 4 GB."""
+    at, kind = 8, b""
+    while kind != b"IEND":
+        length, kind = struct.unpack_from(">I4s", data, at)
+        at += 12 + length
+    if at > len(data):
+        raise ValueError
 
 
 def _jpeg(data, _name):

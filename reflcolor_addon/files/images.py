@@ -12,13 +12,14 @@ from .color_profiles import embedded_profile
 from .exr import exr_channels
 from .gate import contents
 from .image_headers import EXPECTED, image_header
-from .native_noise import quiet_on_failure
+from .native_noise import native_output_aside
 from .tiff import tiff_pixels, upright
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp", ".exr")
 """Image files that can be opened; for file dialogs."""
 
 _LARGEST_FILE = 1 << 32
+_DAMAGE = ("Corrupt JPEG data", "Premature end of JPEG", "Invalid SOS parameters", "Inconsistent progression")
 
 
 def read_image(path, warnings=None, *, cancelled=None):
@@ -32,7 +33,8 @@ def read_image(path, warnings=None, *, cancelled=None):
         floating-point colors (EXR, float TIFF) are sRGB encoded. Colors in another space (Display P3, Adobe RGB) are
         converted, if the file's ICC profile is one of a matrix and curves.
     warnings : list, optional
-        Gets a `Message` where a profile cannot be followed, so that the colors are taken as sRGB.
+        Gets a `Message` where a profile cannot be followed, so that the colors are taken as sRGB, and where parts of
+        the picture are damaged.
 
     Returns
     -------
@@ -48,7 +50,7 @@ def read_image(path, warnings=None, *, cancelled=None):
     name = Path(path).name
     if header is None:
         return _srgb_of_light(_color_of_exr(exr_channels(data, name), name))
-    values, alpha = _pixels(data, header, name)
+    values, alpha = _pixels(data, header, name, [] if warnings is None else warnings)
     rgb = _eight_bit_colors(values, name)
     if alpha is not None:
         rgb[alpha == 0] = 0
@@ -63,16 +65,16 @@ def _opened(path, cancelled):
     return data, image_header(data, Path(path).name)
 
 
-def _pixels(data, header, name):
+def _pixels(data, header, name, warnings=None):
     """(H, W) or (H, W, 3) values, in RGB, and the opacity or None; of all kinds but EXR."""
     import cv2
 
     if header.layout is not None:
-        return tiff_pixels(data, header.layout, name, lambda part: _decoded(part, cv2.IMREAD_UNCHANGED, name))
+        return tiff_pixels(data, header.layout, name, lambda part: _decoded(part, cv2.IMREAD_UNCHANGED, name, warnings))
     if header.has_alpha:
-        image = _decoded(data, cv2.IMREAD_UNCHANGED, name)
+        image = _decoded(data, cv2.IMREAD_UNCHANGED, name, warnings)
         return cv2.cvtColor(image, cv2.COLOR_BGRA2RGB), image[..., 3]
-    image = _decoded(data, cv2.IMREAD_COLOR | cv2.IMREAD_ANYDEPTH, name)
+    image = _decoded(data, cv2.IMREAD_COLOR | cv2.IMREAD_ANYDEPTH, name, warnings)
     return cv2.cvtColor(image, cv2.COLOR_BGR2RGB, dst=image), None
 
 
@@ -180,22 +182,29 @@ def write_png(path, image):
         temporary.write_bytes(data)
 
 
-def _decoded(data, flags, name):
+def _decoded(data, flags, name, warnings=None):
+    """The pixels as OpenCV has them; of a picture that is damaged only where that can be told in ``warnings``."""
     # Decoding from memory: OpenCV's own file opening knows no non-ASCII paths on Windows.
     import cv2
 
-    image = None
     try:
-        with quiet_on_failure():
+        with native_output_aside() as said:
             image = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
-            if image is None:
-                raise ImageError("{file}: cannot be decoded: it is damaged or cut short", file=name)
     except cv2.error as error:
         raise ImageError(
             "{file}: cannot be decoded ({reason})", file=name, reason=error.err.strip() or "unknown error"
         ) from None
     except MemoryError:
         raise ImageError("{file}: does not fit into memory", file=name) from None
+    if image is None:
+        raise ImageError("{file}: cannot be decoded: it is damaged or cut short", file=name)
+    # Of a broken JPEG libjpeg makes up the rest, in gray, and is content.
+    damage = next((line for line in said if line.startswith(_DAMAGE)), None)
+    if damage is not None:
+        if warnings is None:
+            raise ImageError("{file}: is damaged ({reason})", file=name, reason=damage)
+        text = "{file}: is damaged ({reason}); parts of it may be missing or wrong"
+        warnings.append(Message(text, file=name, reason=damage))
     return image
 
 

@@ -1,4 +1,4 @@
-"""Keeps native libraries from printing beside the one line that an error is."""
+"""Keeps what native libraries print about a file from the lines that a person reads."""
 
 import contextlib
 import os
@@ -7,14 +7,17 @@ import tempfile
 import threading
 
 _LOCK = threading.RLock()
+_MOST = 1 << 16
 
 
 @contextlib.contextmanager
-def quiet_on_failure():
-    """Hold back what native code writes to stderr in this block; drop it if the block raises, else let it through.
+def native_output_aside():
+    """Hold back what native code writes to stderr in this block; gives a list that holds its lines afterwards.
 
-    Image and scan libraries print about a broken file before they return their error, which then reads as several.
+    Image libraries print about a file before they return their error, which then reads as several, and about oddities
+    of files that are sound.
     """
+    lines = []
     with _LOCK, contextlib.ExitStack() as stack:
         try:
             with contextlib.suppress(AttributeError, ValueError):
@@ -23,14 +26,13 @@ def quiet_on_failure():
             original = os.dup(2)
         except OSError:
             # A windowed program may have no stderr at all: then there is nothing to hold back.
-            yield
+            yield lines
             return
         stack.callback(os.close, original)
         os.dup2(held.fileno(), 2)
         try:
-            yield
+            yield lines
         finally:
             os.dup2(original, 2)
-        held.seek(0)
-        if text := held.read():
-            os.write(2, text)
+            held.seek(0)
+            lines += held.read(_MOST).decode(errors="replace").splitlines()

@@ -263,7 +263,10 @@ def find_photo(name, seeds_path, photos):
     if len(given) > 1:
         raise SeedsError(f"{seeds_path}: photo {name} may be {given[0]} or {given[1]}; give them different names")
     path = given[0] if given else beside(seeds_path, name)
-    return path if path is not None and path.is_file() else None
+    try:
+        return path if path is not None and path.is_file() else None
+    except (OSError, ValueError):  # a name that is too long to be a file's
+        return None
 
 
 def sample_photo(photo, x, y):

@@ -40,9 +40,9 @@ def run(arguments, session):
     scans = session.read_scans(arguments.input, outside=arguments.outside_files, options=reading_of(arguments))
     index, scan = choose_scan(scans, arguments.wanted, arguments.input)
     session.warnings += scan.warnings
-    rgb = _image_of(scan, arguments.result)
+    rgb = _image_of(scan, arguments.result, session.warnings)
     if arguments.truth is not None:
-        truth, compared = _image_of(scan, arguments.truth), scan.valid
+        truth, compared = _image_of(scan, arguments.truth, session.warnings), scan.valid
     elif scan.color is not None:
         # Scanners write black where they saw no color.
         truth, compared = scan.color, scan.valid & scan.color.any(axis=-1)
@@ -57,8 +57,8 @@ def run(arguments, session):
         session.say(_as_text(figures))
 
 
-def _image_of(scan, path):
-    image = read_image(path)
+def _image_of(scan, path, warnings):
+    image = read_image(path, warnings)
     if image.shape[:2] != scan.shape:
         (rows, columns), (height, width) = scan.shape, image.shape[:2]
         raise ImageError(

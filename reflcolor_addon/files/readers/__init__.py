@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from ...errors import ScanError
 from ..gate import opened
 from . import e57, image_pair, numpy_arrays, pcd, ply, ptx, text_cloud
@@ -53,7 +55,9 @@ def read_scans(path, *, options=AS_IT_IS, outside=False, progress=None, cancelle
         with opened(path, _EXPECTED, error=ScanError) as file:
             kind = _kind_of(path, file.read(_START))
             file.seek(0)
-            return kind.read(file, path, options=options, outside=outside, progress=progress, cancelled=cancelled)
+            # Numbers of strangers overflow; what comes of it is judged by limits, which are told.
+            with np.errstate(over="ignore", invalid="ignore", divide="ignore", under="ignore"):
+                return kind.read(file, path, options=options, outside=outside, progress=progress, cancelled=cancelled)
     except MemoryError:
         raise ScanError("{file}: does not fit into memory", file=path.name) from None
 

@@ -1,6 +1,9 @@
 """NumPy arrays: .npy and .npz with x, y, z, or with range and angles."""
 
+import struct
+import tokenize
 import zipfile
+import zlib
 
 import numpy as np
 
@@ -19,6 +22,12 @@ _AZIMUTHS, _ELEVATIONS = ("azimuth_deg", "azimuth"), ("elevation_deg", "elevatio
 _COLORS = ("color", "colors", "rgb")
 _MOST_MEMBERS = 256
 _PACKED_AT_MOST = 1100
+_PACKED_BY = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+_DAMAGED = (
+    *(ValueError, KeyError, TypeError, EOFError, OSError, NotImplementedError, RuntimeError),
+    *(SyntaxError, tokenize.TokenError, struct.error, zlib.error, zipfile.BadZipFile),
+)
+"""What NumPy and zipfile raise where a file is not whole."""
 
 
 def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -141,6 +150,8 @@ def _arrays(file, path):
                 raise ScanError("{file}: holds {count:,} arrays", file=path.name, count=len(members))
             if sum(member.file_size for member in members) > _PACKED_AT_MOST * size_of(file):
                 raise ScanError("{file}: claims to hold more than a file of its size can", file=path.name)
+            if any(member.compress_type not in _PACKED_BY for member in members):
+                raise ScanError("{file}: is packed in a way that NumPy does not use", file=path.name)
             found = {}
             for member in members:
                 with archive.open(member) as data:
@@ -149,10 +160,13 @@ def _arrays(file, path):
                     with archive.open(member) as data:
                         found[member.filename[:-4].lower()] = np.lib.format.read_array(data, allow_pickle=False)
             return found
-    except (ValueError, zipfile.BadZipFile, EOFError, OSError, NotImplementedError, RuntimeError, KeyError) as error:
-        if isinstance(error, ScanError):
-            raise
-        raise ScanError("{file}: not whole, or no arrays of numbers: {reason}", file=path.name, reason=error) from None
+    except ScanError:
+        raise
+    except _DAMAGED:
+        # What they say is about Python, and quotes the file at length.
+        raise ScanError(
+            "{file}: it is damaged or cut short, or holds something else than arrays of numbers", file=path.name
+        ) from None
 
 
 def _named(array):

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...errors import Cancelled, ScanError
 from ...scan.limits import MOST_PIXELS
+from ...scan.scan import is_plausible
 from ..gate import size_of
 from .cloud import check_size, scan_of_columns
 from .formats import Format
@@ -115,7 +116,7 @@ class _Header:
     """Elements with (name, type, type of the items or None) of their properties; what comments say."""
 
     def __init__(self, file, path):
-        self.elements, self._notes, self.order = {}, [], "unknown"
+        self.elements, self._notes, self.order, self._path = {}, [], "unknown", path
         lines, read = 0, 0
         while True:
             line = file.readline(_LONGEST_HEADER)
@@ -144,7 +145,10 @@ class _Header:
                 raise ScanError(
                     "{file}: line {line}: not a line of a PLY's header", file=path.name, line=lines
                 ) from None
-        if self.order == "unknown" or any(not 0 <= element.count < 2**40 for element in self.elements.values()):
+        elements = self.elements.values()
+        names = [[name for name, *_ in element.properties] for element in elements]
+        twice = any(len(set(given)) < len(given) for given in names)
+        if self.order == "unknown" or twice or any(not 0 <= element.count < 2**40 for element in elements):
             raise ScanError("{file}: its header is damaged", file=path.name)
 
     def stated_size(self):
@@ -164,10 +168,17 @@ class _Header:
             if match := _OWN_SCAN.fullmatch(note):
                 names[int(match[1])] = match[2]
             elif match := _OWN_POSE.fullmatch(note):
-                words = match[2].split()
-                if len(words) == 16:
-                    poses[int(match[1])] = np.array(words, np.float64).reshape(4, 4)
+                poses[int(match[1])] = self._pose(match[2].split())
         return poses, names
+
+    def _pose(self, words):
+        try:
+            pose = np.array(words, np.float64).reshape(4, 4)
+        except ValueError:
+            pose = np.zeros((4, 4))
+        if not is_plausible(pose):
+            raise ScanError("{file}: a pose in its header is damaged", file=self._path.name)
+        return pose
 
 
 class _Binary:
@@ -234,7 +245,7 @@ class _Text:
                 try:
                     if int(words[0]):
                         found[at] = int(words[1])
-                except (ValueError, IndexError):
+                except (ValueError, IndexError, OverflowError):
                     raise self._lines.error("expected a list of whole numbers") from None
                 at += 1
         return found
