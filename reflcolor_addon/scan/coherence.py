@@ -1,5 +1,7 @@
 """Whether neighbors in a stored order are neighbors in space: what tells a scanner's grid from a list of points."""
 
+import math
+
 import numpy as np
 
 _PAIRS = 1 << 15
@@ -46,25 +48,43 @@ def is_unordered(points, valid):
     count = np.count_nonzero(valid)
     if count < _FEWEST:
         return False
-    flat, there = points.reshape(-1, 3), np.flatnonzero(valid)
-    picked = there[np.random.default_rng(0).integers(0, count, (2, _PAIRS))]
-    any_two = np.median(_distances(flat[picked[0]], flat[picked[1]]))
+    some = _sample(points, valid)
+    one, other = np.random.default_rng(0).integers(0, len(some), (2, _PAIRS))
+    any_two = np.median(_distances(some[one], some[other]))
     if 1 in (height, width):
+        flat, there = points.reshape(-1, 3), np.flatnonzero(valid)
         return _goes_back_and_forth(flat[there]) or _apart(flat, there[:-1], there[1:]) > _UNORDERED * any_two
-    across, along = valid[:, :-1] & valid[:, 1:], valid[:-1] & valid[1:]
-    index = np.arange(height * width).reshape(height, width)
-    found = [
-        _apart(flat, start, start + step)
-        for start, step in ((index[:, :-1][across], 1), (index[:-1][along], width))
-        if start.size >= _FEWEST
-    ]
-    return bool(found) and min(found) > _UNORDERED * any_two
+    apart = [_from_neighbor(points, valid, rows, cols) for rows, cols in ((0, 1), (1, 0))]
+    return not np.isnan(apart).all() and np.nanmin(apart) > _UNORDERED * any_two
+
+
+def _sample(points, valid):
+    """(N, 3) points of every n-th row and column; all of a grid that has too few there."""
+    step = math.isqrt(valid.size // _PAIRS) + 1
+    found = points[::step, ::step][valid[::step, ::step]]
+    return found if len(found) >= _FEWEST else points[valid]
+
+
+def _from_neighbor(points, valid, rows, cols):
+    """Median distance from a pixel to the one so many rows and columns on; NaN where too few tell."""
+    height, width = valid.shape
+    for every in (math.isqrt(valid.size // _PAIRS) + 1, 1):
+        here = slice(0, height - rows, every), slice(0, width - cols, every)
+        there = slice(rows, None, every), slice(cols, None, every)
+        both = valid[here] & valid[there]
+        if np.count_nonzero(both) >= _FEWEST:
+            return float(np.median(_distances(points[here][both], points[there][both])))
+    return np.nan
 
 
 def _between_lines(points, valid, length):
     """Median distance from a point to the one at the same place of the next line; NaN where too few tell."""
-    start = np.flatnonzero(valid[:-length] & valid[length:]) if length < len(valid) else np.empty(0, int)
-    return _apart(points, start, start + length) if start.size >= _FEWEST else np.nan
+    for every in (max(1, (len(valid) - length) // _PAIRS), 1):
+        here, there = slice(0, max(0, len(valid) - length), every), slice(length, None, every)
+        both = valid[here] & valid[there]
+        if np.count_nonzero(both) >= _FEWEST:
+            return float(np.median(_distances(points[here][both], points[there][both])))
+    return np.nan
 
 
 def _apart(points, one, other):

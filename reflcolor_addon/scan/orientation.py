@@ -193,7 +193,7 @@ def thinned(scan, step):
 
 def _sampled(points, valid):
     """Whole blocks of neighbors are not needed: every n-th row and column keeps order and sense."""
-    steps = tuple(slice(None, None, max(1, size // _SAMPLES)) for size in valid.shape)
+    steps = tuple(slice(None, None, -(-size // _SAMPLES)) for size in valid.shape)
     return np.asarray(points[steps], np.float64), np.asarray(valid[steps], bool)
 
 

@@ -22,6 +22,8 @@ _FEWEST_LINES = 4
 _REPEATED_SHARE = 0.002
 _FEWEST_REPEATED = 8
 _ROUNDS = 4
+_HASH = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
+"""Large odd numbers: two points of one sum are two of one place."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -89,15 +91,16 @@ def repeated_point(points):
     """
     if len(points) < 2 * _FEWEST_REPEATED:
         return None
-    order = np.lexsort(points.T[::-1])
-    ordered = points[order]
-    starts = np.flatnonzero(np.concatenate([[True], (ordered[1:] != ordered[:-1]).any(axis=1)]))
+    # Many times faster than to sort by three numbers; one zero is as good as the other.
+    hashes = (points + 0.0).view(np.uint64) @ _HASH
+    ordered = np.sort(hashes)
+    starts = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]]))
     counts = np.diff(np.concatenate([starts, [len(points)]]))
     most = int(np.argmax(counts))
     second = np.partition(counts, -2)[-2] if len(counts) > 1 else 0
     if counts[most] < max(_FEWEST_REPEATED, _REPEATED_SHARE * len(points), 4 * second):
         return None
-    return ordered[starts[most]]
+    return points[np.argmax(hashes == ordered[starts[most]])]
 
 
 def fitted_origin(points, valid):
@@ -247,8 +250,16 @@ def _from_middle(angle, valid, *, wraps):
     around = angle - first
     if wraps:
         around = (around + np.pi) % (2 * np.pi) - np.pi
-    middle = np.ma.median(np.ma.array(around, mask=~valid), axis=0).filled(0.0)
+    middle = _medians(around, valid)
     return around - middle, first + middle
+
+
+def _medians(values, valid):
+    """(W,) medians of the valid (H, W) values of each column; every column has some."""
+    # A masked median is many times slower.
+    ordered = np.sort(np.where(valid, values, np.inf), axis=0)
+    count, columns = valid.sum(axis=0), np.arange(valid.shape[1])
+    return (ordered[(count - 1) // 2, columns] + ordered[count // 2, columns]) / 2
 
 
 def _sampled(points, valid):

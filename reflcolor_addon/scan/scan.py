@@ -64,7 +64,8 @@ class Scan:
                 most=MOST_PIXELS,
             )
         arrays = {
-            "points": np.ascontiguousarray(self.points, np.float64),
+            # A copy: nobody else is to change them, nor to have them changed.
+            "points": np.array(self.points, np.float64, order="C"),
             "reflectance": np.ascontiguousarray(self.reflectance, np.float32),
             "valid": np.ascontiguousarray(self.valid, bool),
             "pose": np.ascontiguousarray(self.pose, np.float64),
@@ -83,8 +84,8 @@ class Scan:
                     shape=array.shape,
                     expected=expected[key],
                 )
+        arrays["points"][~arrays["valid"]] = 0.0
         self._require_plausible(arrays["points"], arrays["reflectance"], arrays["valid"], arrays["pose"])
-        arrays["points"] = np.where(arrays["valid"][..., None], arrays["points"], 0.0)
         for key, array in arrays.items():
             object.__setattr__(self, key, array)
 
@@ -97,8 +98,9 @@ class Scan:
                 "the pose is none of a scanner: expected 0 0 0 1 as its last row, and at most {most:g} m",
                 most=FARTHEST_M,
             )
-        for what, values, most in (("a point", points, FARTHEST_M), ("a reflectance", reflectance, STRONGEST)):
-            seen = np.abs(values[valid]).max(initial=0)
+        # Where there is no return the points are 0 already.
+        for what, values, most in (("a point", points, FARTHEST_M), ("a reflectance", reflectance[valid], STRONGEST)):
+            seen = max(values.max(initial=0), -values.min(initial=0))
             if not np.isfinite(seen):
                 raise self._error("a valid pixel has {what} that is not finite", what=what)
             if seen > most:

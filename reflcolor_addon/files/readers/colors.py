@@ -23,6 +23,9 @@ def scaled_colors(values, limits, warn):
     (N, 3) uint8 or None
         None where the values are no colors.
     """
+    levels = _levels(values)
+    if levels is not None and _in_8_bits(levels, limits):
+        return levels
     values = np.nan_to_num(np.asarray(values, np.float64), nan=0.0, posinf=0.0, neginf=0.0)
     least, most = (float(values.min()), float(values.max())) if values.size else (0.0, 0.0)
     low, high = limits or (None, None)
@@ -35,8 +38,7 @@ def scaled_colors(values, limits, warn):
                 most=most,
             )
             return None
-    elif low >= 0 and 128 <= high <= 255:
-        # The least and greatest that occur, or the ends of the scale: it counts in 8 bits.
+    elif _counts_in_8_bits(low, high):
         low, high = 0.0, 255.0
     fits = low <= least and most <= high
     # A picture may be dark, in whole steps of 8 bits; darker than that it is on another scale.
@@ -56,6 +58,26 @@ def scaled_colors(values, limits, warn):
             )
             low, high = found
     return np.round(np.clip((values - low) * (255 / (high - low)), 0, 255)).astype(np.uint8)
+
+
+def _levels(values):
+    """The same numbers as uint8, None where that cannot hold them."""
+    with np.errstate(invalid="ignore"):
+        levels = values.astype(np.uint8)
+    return levels if np.array_equal(levels, values) else None
+
+
+def _in_8_bits(levels, limits):
+    """Whether whole numbers from 0 to 255 are the levels of an image of 8 bits as they are."""
+    low, high = limits or (None, None)
+    if low is None or high is None or not 0 < high - low <= 2**32:
+        return levels.max(initial=0) > 1
+    return _counts_in_8_bits(low, high)
+
+
+def _counts_in_8_bits(low, high):
+    """Whether limits are the least and greatest level that occur in an image of 8 bits, or the ends of its scale."""
+    return low >= 0 and 128 <= high <= 255
 
 
 def _scale_of(least, most):

@@ -131,7 +131,7 @@ class IndexGrid:
         """(H, W, ...) grid of (N, ...) values of the points; zeros in pixels without a return."""
         grid = np.zeros((self.shape[0] * self.shape[1], *values.shape[1:]), dtype or values.dtype)
         with np.errstate(over="ignore", invalid="ignore"):
-            grid[self._pixels] = values[self._points]
+            grid[self._pixels] = values if len(self._points) == len(values) else values[self._points]
         return grid.reshape(*self.shape, *values.shape[1:])
 
     def _extent(self, index, field, limits):

@@ -1,5 +1,7 @@
 """From the columns of an E57 scan to stored grids, whichever of its many fields the file has."""
 
+from functools import reduce
+
 import numpy as np
 
 from ...messages import Message
@@ -11,8 +13,6 @@ from .grid import UnusableScan
 from .lines import indices_of_lines
 from .options import ANGLE
 from .poses import quaternion_pose
-
-_WIDEST = 1e30
 
 
 def stored_grids(columns, header, options):
@@ -67,6 +67,8 @@ def stored_grids(columns, header, options):
 
 def _coordinates(columns, warn):
     """(N, 3) points and (N,) which of them are returns; spherical ones where the Cartesian say nothing."""
+    # No return has three zeros; what is not finite is sorted out later, so that it is counted.
+    nonzero = _largest([columns[axis] for axis in CARTESIAN]) != 0 if CARTESIAN[0] in columns else None
     spherical, cartesian = (
         np.stack([columns.pop(axis) for axis in axes], axis=-1) if axes[0] in columns else None
         for axes in (SPHERICAL, CARTESIAN)
@@ -79,10 +81,7 @@ def _coordinates(columns, warn):
         spherical = _cartesian(spherical)
     if cartesian is None:
         return spherical, there
-    valid = (cartesian != 0).any(axis=-1) & (np.abs(cartesian) < _WIDEST).all(axis=-1)
-    invalid_numbers = ~(np.abs(cartesian) < _WIDEST).all(axis=-1)
-    valid |= invalid_numbers
-    valid &= states.get(CARTESIAN_STATE, states.get(SPHERICAL_STATE, True))
+    valid = nonzero & states.get(CARTESIAN_STATE, states.get(SPHERICAL_STATE, True))
     if spherical is not None:
         missing = there & ~valid
         if missing.any():
@@ -90,6 +89,11 @@ def _coordinates(columns, warn):
             valid |= missing
             warn("{count:,} points have spherical coordinates only; these were taken", count=np.count_nonzero(missing))
     return cartesian, valid
+
+
+def _largest(columns):
+    """(N,) greatest of the absolute values; NaN where one is."""
+    return reduce(np.maximum, map(np.abs, columns))
 
 
 def _reflectance(columns, header, valid, warn):

@@ -1,6 +1,7 @@
 """The last step of every reader of scanners' files: from stored grids to a Scan that is upright and clean."""
 
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 
@@ -83,11 +84,12 @@ def finish_grid(
     def warn(template, **values):
         warnings.append(Message("scan '{scan}': " + template, scan=name, **values))
 
-    measured = valid & (points != 0).any(axis=-1)
+    # What is not a number stays none.
+    largest = reduce(np.maximum, (np.abs(points[..., axis]) for axis in range(3)))
+    measured = valid & (largest != 0)
     reflectance, color = told_apart(reflectance, color, measured, warn)
-    usable = measured & (np.abs(points) < FARTHEST_M).all(axis=-1) & (np.abs(reflectance) < STRONGEST)
-    # A square of such a coordinate is no number any more, so that its range would be none.
-    usable &= (np.abs(points) > NEAREST_M).any(axis=-1)
+    # The square of a smaller coordinate is no number any more, so that its range would be none.
+    usable = measured & (largest < FARTHEST_M) & (largest > NEAREST_M) & (np.abs(reflectance) < STRONGEST)
     if lost := np.count_nonzero(measured) - np.count_nonzero(usable):
         warn(
             "{count:,} points hold a number that is not finite, far too large or far too small, and were taken as no "
@@ -98,8 +100,9 @@ def finish_grid(
         raise UnusableScan(
             "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
         )
+    points[~usable] = 0.0
     try:
-        settled = Settled(np.where(usable[..., None], points, 0.0), usable, pose, places or {}, origin, options, warn)
+        settled = Settled(points, usable, pose, places or {}, origin, options, warn)
     except NoGrid:
         raise UnusableScan("{file}: scan '{scan}' " + NO_GRID, file=source.name, scan=name) from None
     if not settled.valid.any():

@@ -22,6 +22,9 @@ _SHORTEST_LINE = len("0 0 0 0\n")
 _WIDTHS = (4, 7, 10)
 """`x y z i`, with `r g b`, with a normal after them."""
 
+_LINES = 1 << 14
+"""Of those that are not as plain as most, parsed at once."""
+
 _LONGEST_QUOTE = 40
 _COUNT = re.compile(r"\d{1,18}(\.0*)?")
 _NO_NUMBER = re.compile(r"[-+]?(?:nan\([^)\s]*\)|\d\.#[A-Za-z]+\d*)", re.IGNORECASE)
@@ -188,8 +191,10 @@ def _read_scan(lines, first, *, after, options):
 
 def _in_lines(body, found, columns, rows, notes):
     """The body as grids: one line of the file after the other is a column, unless its points tell otherwise."""
-    points, there = body.points[:found], (body.points[:found] != 0).any(axis=-1)
-    length = rows if rows == columns else line_length(points, there, (rows, columns))
+    length = rows
+    if rows != columns:
+        x, y, z = body.points[:found].T
+        length = line_length(body.points[:found], (x != 0) | (y != 0) | (z != 0), (rows, columns))
     if length != rows:
         notes.append(
             Message(
@@ -207,8 +212,8 @@ def _in_lines(body, found, columns, rows, notes):
             else values[: lines * length].reshape(lines, length, *values.shape[1:]).swapaxes(0, 1)
         )
 
-    line = np.arange(found)
-    cells = np.where(line < lines * length, line % length * lines + line // length, -1)
+    cells = np.full(found, -1)
+    cells[: lines * length] = np.arange(length * lines).reshape(length, lines).T.ravel()
     return {
         "cells": cells,
         "points": grid(body.points),
@@ -232,14 +237,18 @@ class _Body:
         """Read as many points as were announced, or as there are; return how many."""
         count, at = len(self.points), 0
         while at < count:
-            first = self._lines.number + 1
-            chunk = self._lines.take(count - at)
-            if not chunk:
-                break
-            if any(line and not line.isspace() for line in chunk):
+            values = self._lines.take_numbers(count - at, _WIDTHS)
+            plain = values is not None
+            if not plain:
+                first = self._lines.number + 1
+                chunk = self._lines.take(min(count - at, _LINES))
+                if not chunk:
+                    break
+                if not any(line and not line.isspace() for line in chunk):
+                    continue
                 values = self._parsed(chunk, first)
-                self._keep(values, at)
-                at += len(values)
+            self._keep(values, at, plain)
+            at += len(values)
         return at
 
     def notes(self):
@@ -260,12 +269,18 @@ class _Body:
             return self._color
         return scaled_colors(self._color, None, lambda template, **values: notes.append(Message(template, **values)))
 
-    def _keep(self, values, at):
+    def _keep(self, values, at, plain):
+        """Keep values as the points from ``at`` on; plain ones are all numbers."""
         here = slice(at, at + len(values))
         self.points[here] = values[:, :3]
         with np.errstate(over="ignore", invalid="ignore"):
             self.intensity[here] = values[:, 3]
         colored = values.shape[1] > 4
+        if plain and colored and self._color is not None and self._color.dtype == np.uint8:
+            with np.errstate(invalid="ignore"):
+                self._color[here] = values[:, 4:7]
+            if np.array_equal(self._color[here], values[:, 4:7]):
+                return
         color = values[:, 4:7] if colored else np.full((len(values), 3), np.nan)
         given = ~np.isnan(color).all(axis=-1)
         self._colorless += np.count_nonzero((values[~given, :3] != 0).any(axis=-1))

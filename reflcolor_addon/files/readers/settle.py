@@ -3,6 +3,8 @@
 Nothing of this is believed from a header alone; the points show it.
 """
 
+import math
+
 import numpy as np
 
 from ...messages import Message
@@ -20,7 +22,9 @@ _FARTHEST_RETURN_M = 20_000.0
 _NEAREST_M = 0.02
 """Half of the returns are never nearer."""
 
-_SAMPLE = 1 << 17
+_SAMPLE = 1 << 16
+_FEWEST = 1 << 10
+"""Returns; where a sample has fewer, all are looked at."""
 _NEARLY_UP = 0.7
 
 
@@ -230,9 +234,13 @@ class Settled:
         self.points, self.valid = step.of(self.points), step.of(self.valid)
 
     def _sample(self):
-        """Some of the returns, as (N, 3)."""
-        there = np.flatnonzero(self.valid)
-        return self.points.reshape(-1, 3)[there[:: max(1, len(there) // _SAMPLE)]]
+        """Some of the returns, as (N, 3): those of every n-th row and column, or all of a nearly empty grid."""
+        step = math.isqrt(self.valid.size // _SAMPLE) + 1
+        for every in ((slice(None, None, step),) * 2, ...):
+            found = self.points[every][self.valid[every]]
+            if len(found) > _FEWEST:
+                break
+        return found
 
     def _nearest(self):
         """Least distance from the scanner, metres."""

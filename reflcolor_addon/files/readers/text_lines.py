@@ -1,9 +1,12 @@
 """Lines of a large text file, in blocks, with their numbers."""
 
 from ...errors import Cancelled, ScanError
+from ...native import library
+from ...native.numbers import read_numbers
 from ..gate import size_of
 
-_BLOCK = 1 << 24
+# So large that reading it is worth the while, so small that it stays in the cache until it is parsed.
+_BLOCK = 1 << 20
 _LONGEST_LINE = 1 << 16
 _WIDE_MARKS = (b"\xff\xfe", b"\xfe\xff")
 
@@ -27,26 +30,64 @@ class TextLines:
         self.number = 0
         """Number of the last line handed out, from 1."""
         self._file, self._progress, self._cancelled = file, progress, cancelled
-        self._lines, self._at, self._waiting = [], 0, 0
+        # What is at hand: lines that end in LF, and where the next one begins.
+        self._data, self._at = b"", 0
         self._rest, self._ended = b"", False
 
     def next_line(self):
         """The next line that is not blank, stripped; None at the end of the file."""
         while self._filled():
-            line = self._handed_out(1)[0].strip()
-            if line:
-                return line
+            line = self._data[self._at : self._end_of_line(self._at)]
+            self._hand_out(self._at + len(line) + 1, 1)
+            if text := line.decode("latin-1").strip():
+                return text
         return None
 
     def take(self, limit):
         """Up to `limit` lines as they are, blank ones among them, as many as one block has; empty at the end."""
         if not self._filled():
             return []
-        return self._handed_out(limit)
+        lines = self._data[self._at :].split(b"\n", limit)
+        left = lines.pop()
+        if left and len(lines) < limit:
+            # The last line of the file may do without its end.
+            lines.append(left)
+            left = b""
+        self._hand_out(len(self._data) - len(left), len(lines))
+        return b"\n".join(lines).decode("latin-1").split("\n")
+
+    def take_numbers(self, limit, widths):
+        """Numbers of up to `limit` lines, as many as one block has of the same make, or None where others come next.
+
+        Parameters
+        ----------
+        limit : int
+        widths : collection of int
+            How many numbers a line may have; the first one's number of them holds for all.
+
+        Returns
+        -------
+        (n, width) float64 or None
+            None as well where the kernel is missing, or at the end.
+        """
+        if not library.available() or not self._filled():
+            return None
+        width = 0
+        start = self._at
+        while start < len(self._data) and not width:
+            end = self._end_of_line(start)
+            width, start = len(self._data[start:end].split()), end + 1
+        if width not in widths:
+            return None
+        values, lines, end = read_numbers(self._data, self._at, limit, width)
+        self._hand_out(end, lines)
+        return values if lines else None
 
     def bytes_left(self):
         """How many bytes of text have not been handed out yet; at most, for line ends may take two."""
-        return self.size - self._file.tell() + len(self._rest) + self._waiting
+        # Every line counts with the end that it has, or could have.
+        here = len(self._data) - self._at + (self._at < len(self._data) and not self._data.endswith(b"\n"))
+        return self.size - self._file.tell() + len(self._rest) + here
 
     def at_end(self):
         """Whether no line is left."""
@@ -62,16 +103,17 @@ class TextLines:
         place = {"file": self.path.name, "line": self.number if number is None else number}
         return ScanError("{file}: line {line}: " + template, **place, **values)
 
-    def _handed_out(self, limit):
-        lines = self._lines[self._at : self._at + limit]
-        self._at += len(lines)
-        self.number += len(lines)
-        self._waiting -= sum(map(len, lines)) + len(lines)
-        return lines
+    def _end_of_line(self, start):
+        end = self._data.find(b"\n", start)
+        return len(self._data) if end < 0 else end
+
+    def _hand_out(self, end, lines):
+        self._at = min(end, len(self._data))
+        self.number += lines
 
     def _filled(self):
         """Make sure that there is a line to hand out; False at the end of the file."""
-        while self._at == len(self._lines):
+        while self._at == len(self._data):
             if self._ended:
                 return False
             self._read_block()
@@ -89,17 +131,15 @@ class TextLines:
             block = block.removeprefix(b"\xef\xbb\xbf")
         self._ended = not block
         data = self._rest + block
+        returns = b"\r" in data
         # A CR in the last place may be the first half of a CRLF: it waits for the next block.
-        cut = len(data) if self._ended else max(data.rfind(b"\n"), data.rfind(b"\r", 0, -1)) + 1
+        cut = max(data.rfind(b"\n"), data.rfind(b"\r", 0, -1) if returns else -1) + 1
+        cut = len(data) if self._ended else cut
         data, self._rest = data[:cut], data[cut:]
         if len(self._rest) > _LONGEST_LINE:
             raise self.error("longer than any line of numbers; not a text file", number=self.number + 1)
-        if b"\r" in data:
+        if returns:
             data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-        self._lines, self._at = data.decode("latin-1").split("\n"), 0
-        if self._lines[-1] == "":
-            del self._lines[-1]
-        # Every line counts with the end that it has, or could have.
-        self._waiting = len(data) + (not data.endswith(b"\n"))
+        self._data, self._at = data, 0
         if self._progress and self.size:
             self._progress(min(1.0, self._file.tell() / self.size), f"Reading {self.path.name}")

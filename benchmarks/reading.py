@@ -1,0 +1,142 @@
+"""How fast scans are read, beside the libraries' own readers, and how that grows: python -m benchmarks.reading
+
+    python -m benchmarks.reading                 PTX beside numpy.loadtxt, E57 beside pye57
+    python -m benchmarks.reading --growth [MEGAPIXELS ...]    E57 from 4 to 40 megapixels: seconds and memory
+
+Seconds are of the processor, medians. E57 is read by a child process; its seconds are told apart, since a plain reader
+has none. Every size of the growth is read in a process of its own; what was measured is kept in build/bench-reading/.
+Linux only.
+"""
+
+import argparse
+import json
+import resource
+import statistics
+import sys
+
+import numpy as np
+import pye57
+
+from benchmarks import geodesic_cases, run_apart
+from benchmarks.geodesic_tables import ROOT, head, row
+from reflcolor_addon import read_scans
+from reflcolor_addon.files.writers import write_e57, write_ptx
+
+FOLDER = ROOT / "build" / "bench-reading"
+SIZES = ((760, 1135), (2000, 2000))
+GROWTH = (4, 10, 20, 40)
+_HEADER_LINES, _CHUNK = 10, 200_000
+
+
+def scan_file(rows, columns, suffix):
+    """The scan `doria`, enlarged, as a file; made when first asked for."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    path = FOLDER / f"doria_{rows}x{columns}{suffix}"
+    if not path.is_file():
+        write = write_ptx if suffix == ".ptx" else write_e57
+        write(geodesic_cases.whole_scan("doria", 1, (rows, columns)), path)
+    return path
+
+
+def processor():
+    """Seconds of this process, and of the children that ended."""
+    return [
+        used.ru_utime + used.ru_stime
+        for used in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    ]
+
+
+def turns(functions, rounds):
+    """Medians of (own, children's) seconds of functions that take turns."""
+    found = {name: [] for name in functions}
+    for _ in range(rounds):
+        for name, function in functions.items():
+            before = processor()
+            function()
+            found[name].append([after - start for after, start in zip(processor(), before, strict=True)])
+    return {name: [statistics.median(column) for column in zip(*times, strict=True)] for name, times in found.items()}
+
+
+def beside_loadtxt(rounds):
+    """PTX to a `Scan`, beside numpy.loadtxt on the same lines of points."""
+    head("PTX, seconds of the processor", "pixels", "file to scan", "numpy.loadtxt alone", "ratio")
+    for rows, columns in SIZES:
+        path = scan_file(rows, columns, ".ptx")
+        lines = path.read_text().split("\n")[_HEADER_LINES:-1]
+
+        def loadtxt(lines=lines):
+            for start in range(0, len(lines), _CHUNK):
+                np.loadtxt(lines[start : start + _CHUNK], np.float64, comments=None, ndmin=2)
+
+        found = turns({"ours": lambda path=path: read_scans(path), "loadtxt": loadtxt}, rounds)
+        ours, theirs = found["ours"][0], found["loadtxt"][0]
+        row(f"{rows} x {columns}", f"{ours:.2f}", f"{theirs:.2f}", f"{ours / theirs:.2f}")
+
+
+def beside_pye57(rounds):
+    """E57 to a `Scan`, beside pye57's own reader of raw columns."""
+    head(
+        "E57, seconds of the processor",
+        "pixels",
+        "file to scan, without the child",
+        "the child",
+        "pye57 alone (read_scan_raw)",
+        "ratio without the child",
+    )
+    for rows, columns in SIZES:
+        path = scan_file(rows, columns, ".e57")
+
+        def plain(path=path):
+            file = pye57.E57(str(path))
+            file.read_scan_raw(0)
+            file.close()
+
+        found = turns({"ours": lambda path=path: read_scans(path), "pye57": plain}, rounds)
+        (ours, child), theirs = found["ours"], found["pye57"][0]
+        row(f"{rows} x {columns}", f"{ours:.2f}", f"{child:.2f}", f"{theirs:.2f}", f"{ours / theirs:.2f}")
+
+
+def growth(megapixels, rounds):
+    """Seconds and memory of reading an E57, by its pixels."""
+    record = FOLDER / "growth.json"
+    known = json.loads(record.read_text()) if record.is_file() else {}
+    head(
+        "Reading an E57",
+        "megapixels",
+        "seconds",
+        "to the smallest, per pixel",
+        "peak, MB",
+        "to the smallest, per pixel",
+    )
+    first = None
+    for size in megapixels:
+        side = round((size * 1e6) ** 0.5)
+        path = scan_file(side, side, ".e57")
+        times = known.setdefault(str(size), [])
+        while len(times) < rounds:
+            command = [sys.executable, "-m", "benchmarks.reading", "--one", str(path)]
+            times.append(run_apart.measured(command))
+            record.write_text(json.dumps(known))
+        seconds, peak = (statistics.median(each[key] for each in times[:rounds]) for key in ("processor", "bytes"))
+        first = first or (size, seconds, peak)
+        shares = (seconds / size / (first[1] / first[0]), peak / size / (first[2] / first[0]))
+        row(size, f"{seconds:.1f}", f"{shares[0]:.2f}", f"{peak / 1e6:.0f}", f"{shares[1]:.2f}")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.reading", description=__doc__.partition("\n")[0])
+    parser.add_argument("--growth", metavar="MEGAPIXELS", type=float, nargs="*", help=f"by default {GROWTH}")
+    parser.add_argument("--one", metavar="FILE", help="read one file, for the growth")
+    parser.add_argument("--rounds", type=int, default=5, help="runs per figure (5)")
+    options = parser.parse_args()
+    if options.one:
+        read_scans(options.one)
+    elif options.growth is not None:
+        growth(options.growth or GROWTH, options.rounds)
+    else:
+        beside_loadtxt(options.rounds)
+        beside_pye57(options.rounds)
+
+
+if __name__ == "__main__":
+    main()
