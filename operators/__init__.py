@@ -52,6 +52,7 @@ _registration = Registration(
         "step_back",
         "delete_picked",
         "scene.attribute_names",
+        "scene.kept_settings",
         "overlays.draw_seeds",
         "overlays.wipe_handle",
         "overlays.legend",

@@ -14,6 +14,11 @@ class REFLCOLOR_PT_colorize_presets(PresetPanel, bpy.types.Panel):
     preset_operator = "script.execute_preset"
     preset_add_operator = REFLCOLOR_OT_add_colorize_preset.bl_idname
 
+    @staticmethod
+    def reset_cb(context, _filepath):
+        """Presets that were kept before there was such a setting do not name it: the light was the reflectance's."""
+        context.scene.reflcolor.light = 0
+
 
 class REFLCOLOR_PT_match_presets(PresetPanel, bpy.types.Panel):
     """Presets of the settings of the search in photos"""

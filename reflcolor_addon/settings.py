@@ -278,5 +278,7 @@ PRESETS = {
     ),
     "Paper": Preset("The method as published", {}),
 }
-DEFAULT_PRESET = "Paper"
+DEFAULT_PRESET = "Natural"
 """Where the window and the command line start from."""
+FORMER_DEFAULT_PRESET = "Paper"
+"""Where they started from before there was Natural; files of that time keep it."""

@@ -43,7 +43,7 @@ def seeds_in(bpy):
 
 def expected(scan_file, **settings):
     seeds = Seeds(*np.transpose(PLACES), np.array(COLORS, np.uint8))
-    return colorize(read_scans(scan_file)[0], seeds, Settings(**settings))
+    return colorize(read_scans(scan_file)[0], seeds, Settings.preset("Natural", **settings))
 
 
 @pytest.mark.parametrize("settings", [{}, {"beta": 0.0, "neighbors": 4}, {"alpha": 2.0, "color_space": "cielab"}])

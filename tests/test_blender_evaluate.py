@@ -8,10 +8,11 @@ import pytest
 from small_scans import random_scan
 from test_blender_import import values, write_small_ptx
 
-from reflcolor_addon import Seeds, colorize, evaluate, read_scans
+from reflcolor_addon import Seeds, Settings, colorize, evaluate, read_scans
 from reflcolor_addon.color.evaluation import error_map
 from reflcolor_addon.files.images import write_png
 
+NATURAL = Settings.preset("Natural")
 SEEDS = Seeds([0, 5], [0, 9], np.array([[200, 80, 40], [20, 90, 220]], np.uint8))
 
 
@@ -43,7 +44,7 @@ def test_the_error_of_every_vertex_is_the_cores(colorized, scan_file):
     assert colorized.ops.reflcolor.evaluate() == {"FINISHED"}
     obj, (scan,) = colorized.context.active_object, read_scans(scan_file)
     seen = scan.valid & scan.color.any(axis=-1)
-    expected = by_vertex(obj, np.nan_to_num(error_map(colorize(scan, SEEDS).rgb, scan.color, seen), nan=-1))
+    expected = by_vertex(obj, np.nan_to_num(error_map(colorize(scan, SEEDS, NATURAL).rgb, scan.color, seen), nan=-1))
     found = values(obj, "error")
     # A level more or less in 8 bits, on the way through Blender's colors.
     assert found == pytest.approx(expected, abs=0.7)
@@ -52,7 +53,7 @@ def test_the_error_of_every_vertex_is_the_cores(colorized, scan_file):
 
 def test_mean_and_percentile_are_reported(colorized, scan_file, capfd):
     (scan,) = read_scans(scan_file)
-    figures = evaluate(colorize(scan, SEEDS).rgb, scan.color, scan.valid & scan.color.any(axis=-1))["as_is"]
+    figures = evaluate(colorize(scan, SEEDS, NATURAL).rgb, scan.color, scan.valid & scan.color.any(axis=-1))["as_is"]
     colorized.ops.reflcolor.evaluate()
     found = values(colorized.context.active_object, "error")
     assert found[found >= 0].mean() == pytest.approx(figures["ciede2000_mean"], abs=0.1)
@@ -67,7 +68,7 @@ def test_an_image_of_the_grids_size_is_the_truth(colorized, scan_file, tmp_path)
     write_png(tmp_path / "truth.png", truth)
     image = colorized.data.images.load(str(tmp_path / "truth.png"))
     obj = colorized.context.active_object
-    expected = by_vertex(obj, error_map(colorize(scan, SEEDS).rgb, truth, scan.valid))
+    expected = by_vertex(obj, error_map(colorize(scan, SEEDS, NATURAL).rgb, truth, scan.valid))
     colorized.ops.reflcolor.evaluate(truth=image.name)
     by_name = values(obj, "error")
     assert by_name == pytest.approx(expected, abs=0.7)

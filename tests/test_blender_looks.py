@@ -9,7 +9,7 @@ from blender_session import EXTENSION
 from small_scans import random_scan
 from test_blender_import import srgb, values, write_small_ptx
 
-from reflcolor_addon import Seeds, colorize, read_scans
+from reflcolor_addon import Seeds, Settings, colorize, read_scans
 from reflcolor_addon.view.colormaps import UNKNOWN, limits_of, painted, region_colors
 
 SEEDS = Seeds([0, 5, 3], [0, 9, 3], np.array([[200, 80, 40], [20, 90, 220], [90, 200, 60]], np.uint8))
@@ -56,7 +56,7 @@ def shown(bpy):
 
 
 def test_confidence_and_nearest_seed_of_every_vertex_are_the_cores(colorized, scan_file):
-    obj, result = colorized.context.active_object, colorize(read_scans(scan_file)[0], SEEDS)
+    obj, result = colorized.context.active_object, colorize(read_scans(scan_file)[0], SEEDS, Settings.preset("Natural"))
     # The mesh holds the points in single precision.
     np.testing.assert_allclose(values(obj, "confidence"), result.confidence.ravel(), rtol=1e-4)
     np.testing.assert_array_equal(values(obj, "nearest_seed", np.int32), result.nearest_seed.ravel())

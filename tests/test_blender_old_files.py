@@ -51,3 +51,34 @@ def test_an_object_of_such_a_file_comes_with_the_present_names(old_file, link):
     operator = bpy.ops.wm.link if link else bpy.ops.wm.append
     operator(directory=f"{path}/Object/", filename="wall")
     _check(bpy.data.objects["wall"], gray)
+
+
+def test_a_file_from_when_paper_was_the_default_keeps_it_and_a_new_one_keeps_what_it_starts_with(blender, tmp_path):
+    settings = blender.context.scene.reflcolor
+    start = {name: getattr(settings, name) for name in ("light", "alpha", "blend", "kriging")}
+    blender.ops.reflcolor.import_scan(filepath=str(write_small_ptx(tmp_path / "wall.ptx", random_scan(3))))
+    for handler in blender.app.handlers.save_pre[:]:
+        if handler.__module__.endswith("kept_settings"):
+            blender.app.handlers.save_pre.remove(handler)
+            break
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "new.blend"))
+    for name in start:
+        settings.property_unset(name)
+    settings.alpha = 7
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "old.blend"))
+    blender.app.handlers.save_pre.append(handler)
+
+    blender.ops.wm.open_mainfile(filepath=str(tmp_path / "old.blend"))
+    old = blender.context.scene.reflcolor
+    assert (old.light, old.alpha, old.blend, old.kriging) == (0, 7, "auto", 0)
+    blender.ops.wm.open_mainfile(filepath=str(tmp_path / "new.blend"))
+    new = blender.context.scene.reflcolor
+    assert {name: getattr(new, name) for name in start} == start and new.light == 1
+
+
+def test_scans_brought_into_a_scene_that_nobody_set_anything_in_are_saved_with_its_settings(blender, tmp_path):
+    blender.ops.reflcolor.import_scan(filepath=str(write_small_ptx(tmp_path / "wall.ptx", random_scan(3))))
+    blender.ops.scene.new(type="NEW")
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "two.blend"))
+    blender.ops.wm.open_mainfile(filepath=str(tmp_path / "two.blend"))
+    assert [scene.reflcolor.light for scene in blender.data.scenes] == [1, 1]

@@ -11,7 +11,7 @@ from gltf_files import encoded
 from pxr import Usd, UsdGeom, UsdShade
 from small_scans import random_scan
 
-from reflcolor_addon import Seeds, colorize, read_scans
+from reflcolor_addon import Seeds, Settings, colorize, read_scans
 from reflcolor_addon.files.whole import fault_of
 from reflcolor_addon.files.writers.ptx import write_ptx
 
@@ -57,7 +57,7 @@ def results(blender_command, tmp_path_factory):
     )
     assert done.returncode == 0, done.stderr
     (read,) = read_scans(folder / "w.ptx")
-    return folder, colorize(read, seeds).rgb[read.valid].astype(int)
+    return folder, colorize(read, seeds, Settings.preset("Natural")).rgb[read.valid].astype(int)
 
 
 def test_only_the_results_are_left(results):
@@ -83,7 +83,7 @@ def test_the_blend_holds_the_colors_and_is_ready_to_render(results, tmp_path):
 def test_the_usd_shows_the_colors_and_keeps_the_attributes(results):
     folder, rgb = results
     (scan,) = read_scans(folder / "w.ptx")
-    found = colorize(scan, Seeds.load(folder / "seeds.json"))
+    found = colorize(scan, Seeds.load(folder / "seeds.json"), Settings.preset("Natural"))
     stage = Usd.Stage.Open(str(folder / "wall.usd"))
     assert UsdGeom.GetStageUpAxis(stage) == "Z" and UsdGeom.GetStageMetersPerUnit(stage) == 1
     (mesh,) = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]

@@ -1,5 +1,7 @@
 """Presets of a person's own, in Blender through the installed zip."""
 
+from pathlib import Path
+
 import pytest
 
 KINDS = {
@@ -50,5 +52,17 @@ def test_a_preset_of_the_colorization_leaves_the_search_alone(blender):
     settings.slic_segments, settings.alpha = 123, 9.0
     path = blender.utils.preset_find("Mine", "reflcolor/colorize", ext=".py")
     blender.ops.script.execute_preset(filepath=path, menu_idname="REFLCOLOR_PT_colorize_presets")
-    assert (settings.slic_segments, settings.alpha) == (123, 6.0)
+    assert (settings.slic_segments, settings.alpha) == (123, 3.0)
     blender.ops.reflcolor.add_colorize_preset(name="Mine", remove_name=True)
+
+
+def test_a_preset_kept_before_the_light_could_be_chosen_takes_it_from_the_reflectance(blender):
+    settings = blender.context.scene.reflcolor
+    blender.ops.reflcolor.add_colorize_preset(name="Older")
+    path = Path(blender.utils.preset_find("Older", "reflcolor/colorize", ext=".py"))
+    lines = path.read_text(encoding="utf-8").splitlines()
+    path.write_text("\n".join(line for line in lines if "settings.light" not in line), encoding="utf-8")
+    assert settings.light == 1
+    blender.ops.script.execute_preset(filepath=str(path), menu_idname="REFLCOLOR_PT_colorize_presets")
+    assert settings.light == 0
+    blender.ops.reflcolor.add_colorize_preset(name="Older", remove_name=True)

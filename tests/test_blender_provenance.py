@@ -55,7 +55,7 @@ def test_the_object_keeps_inputs_settings_seeds_versions_and_time(colorized, sca
         {"role": "scan", "path": str(scan_file)} | hashed(scan_file),
         {"role": "photo", "path": str(photo_file), "image": "view.png"} | hashed(photo_file),
     ]
-    assert found["settings"] == Settings(alpha=2.0, nearest="auto").as_dict()
+    assert found["settings"] == Settings.preset("Natural", alpha=2.0).as_dict()
     assert [(seed["row"], seed["photo"], seed["x"]) for seed in found["seeds"]] == [
         (0, None, None),
         (4, "view.png", 12.5),

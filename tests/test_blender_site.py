@@ -137,7 +137,7 @@ def test_each_selected_scan_is_colorized_from_its_own_seeds(seeded, files):
     seeded.ops.reflcolor.colorize(alpha=3.0)
     for name, color in COLORS.items():
         seeds = Seeds([1, 4], [3, 3], [color, color])
-        expected = colorize(read_scans(files / f"{name}.ptx")[0], seeds, Settings(alpha=3.0)).rgb
+        expected = colorize(read_scans(files / f"{name}.ptx")[0], seeds, Settings.preset("Natural", alpha=3.0)).rgb
         image = np.rint(pixels(state(seeded, name).colorized_image)[..., :3] * 255).astype(int)
         assert np.abs(image - expected).max() <= 1
         assert said(seeded, name) == [(False, f"Colorized {name} from 2 seeds")]

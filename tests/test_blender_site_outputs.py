@@ -12,7 +12,7 @@ from gltf_files import encoded
 from pxr import Usd, UsdGeom
 from small_scans import random_scan
 
-from reflcolor_addon import Seeds, colorize, read_scans
+from reflcolor_addon import Seeds, Settings, colorize, read_scans
 from reflcolor_addon.files.writers import write_ptx
 
 READ_BLEND = """
@@ -61,7 +61,8 @@ def results(blender_command, tmp_path_factory):
 
 def scan_and_colors(folder, name):
     (scan,) = read_scans(folder / f"{name}.ptx")
-    return scan, colorize(scan, Seeds.load(folder / f"{name}.json")).rgb[scan.valid].astype(int)
+    result = colorize(scan, Seeds.load(folder / f"{name}.json"), Settings.preset("Natural"))
+    return scan, result.rgb[scan.valid].astype(int)
 
 
 def read_blend(path, tmp_path):

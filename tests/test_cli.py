@@ -24,7 +24,7 @@ def test_colorize_writes_the_colorized_reflectance_image(run_cli, cli_folder):
     status, out, err = run_cli(*COLORIZE, "-o", "out.png")
     assert (status, out, err) == (0, "wrote out.png\n", "")
     (scan,) = read_scans(cli_folder / "garage.ptx")
-    expected = colorize(scan, Seeds.load(cli_folder / "seeds.json"))
+    expected = colorize(scan, Seeds.load(cli_folder / "seeds.json"), Settings.preset("Natural"))
     assert (read_image(cli_folder / "out.png") == expected.rgb).all()
 
 
@@ -32,7 +32,7 @@ def test_colorize_writes_the_colorized_reflectance_image(run_cli, cli_folder):
 def test_colorize_passes_every_setting_on(run_cli, cli_folder, given, nearest):
     options = ("--alpha", "2.5", "--beta", "0", "--color-space", "cielab", "--neighbors", "4", "--nearest", given)
     assert run_cli(*COLORIZE, *options, "-o", "out.png", "--report", "report.json")[0] == 0
-    settings = Settings(alpha=2.5, beta=0.0, color_space="cielab", neighbors=4, nearest=nearest)
+    settings = Settings.preset("Natural", alpha=2.5, beta=0.0, color_space="cielab", neighbors=4, nearest=nearest)
     (scan,) = read_scans(cli_folder / "garage.ptx")
     expected = colorize(scan, Seeds.load(cli_folder / "seeds.json"), settings)
     assert (read_image(cli_folder / "out.png") == expected.rgb).all()
@@ -181,7 +181,8 @@ def test_a_scan_is_chosen_by_its_index_or_its_name(run_cli, cli_folder, wanted, 
     write_ptx([random_scan(seed, SHAPE) for seed in (1, 2)], cli_folder / "garage.ptx")
     assert run_cli(*COLORIZE, "--scan", wanted, "-o", "out.png", "--report", "r.json")[0] == 0
     assert json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))["scan"]["index"] == index
-    expected = colorize(read_scans(cli_folder / "garage.ptx")[index - 1], Seeds.load(cli_folder / "seeds.json"))
+    scan = read_scans(cli_folder / "garage.ptx")[index - 1]
+    expected = colorize(scan, Seeds.load(cli_folder / "seeds.json"), Settings.preset("Natural"))
     assert (read_image(cli_folder / "out.png") == expected.rgb).all()
 
 

@@ -43,7 +43,7 @@ def painted(cli_folder):
 
 def expected_colors(name):
     (scan,) = read_scans(f"{name}.ptx")
-    return colorize(scan, Seeds.load(f"{name}.json")).rgb
+    return colorize(scan, Seeds.load(f"{name}.json"), Settings.preset("Natural")).rgb
 
 
 def read_json(path):
@@ -76,7 +76,7 @@ def test_all_scans_of_one_file_are_taken_when_that_is_said(run_cli, site):
     arguments = ("colorize", "garage.ptx", "--scan", "all", "--seeds", "{scan}.json")
     assert run_cli(*arguments, "-o", "{scan}.png", "--report", "r_{scan}.json")[0] == 0
     for index, scan in enumerate(read_scans(site / "garage.ptx"), 1):
-        expected = colorize(scan, Seeds.load(f"garage_{index}.json")).rgb
+        expected = colorize(scan, Seeds.load(f"garage_{index}.json"), Settings.preset("Natural")).rgb
         assert (read_image(site / f"garage_{index}.png") == expected).all()
         assert read_json(f"r_garage_{index}.json")["scan"]["index"] == index
 

@@ -224,10 +224,11 @@ def dark_file(tmp_path):
 def test_on_the_command_line_it_is_an_option_reported_and_hinted_at(run_cli, dark_file, tmp_path):
     seeds_of(read_scans(dark_file)[0]).save(tmp_path / "wall.seeds.json")
     line = ("colorize", dark_file, "--seeds", tmp_path / "wall.seeds.json", "-o", tmp_path / "wall.png")
+    line += ("--preset", "Paper")
     status, _, err = run_cli(*line)
     assert status == 0 and HINT in err
     dark = cv2.imread(str(tmp_path / "wall.png"))
-    status, _, err = run_cli(*line, "--preset", "Paper", "--tone", "3", "--report", tmp_path / "wall.json")
+    status, _, err = run_cli(*line, "--tone", "3", "--report", tmp_path / "wall.json")
     assert status == 0 and HINT not in err
     assert json.loads((tmp_path / "wall.json").read_text())["settings"]["tone"] == 3
     assert cv2.imread(str(tmp_path / "wall.png")).mean() > dark.mean() + 20
@@ -249,6 +250,7 @@ def test_in_blender_the_scene_s_tone_counts_and_the_gray_before_stays(seeded, da
     bpy, seeds = seeded
     obj = bpy.context.active_object
     gray = srgb(obj, "Reflectance_Gray").copy()
+    bpy.ops.reflcolor.apply_preset(preset="Paper")
     bpy.ops.reflcolor.colorize()
     assert any(notice.warning and HINT in notice.text for notice in obj.reflcolor.notices)
     bpy.context.scene.reflcolor.tone = 4.0

@@ -8,8 +8,9 @@ PAGE = ROOT / "docs" / "settings.md"
 _HEAD = """# Settings
 
 Every setting of `colorize` and of the search for seeds in photos: on the command line as `--name`, in Python as
-`Settings(name=...)`, in Blender under *4. Colorize* and *Find in Photos*. In a script, a default is that of the preset
-*Paper*. This page is written by `tools/settings_page.py` from the declarations in `reflcolor_addon/settings.py`.
+`Settings(name=...)`, in Blender under *4. Colorize* and *Find in Photos*. Blender's window and the command line start
+from the preset *Natural*, `Settings()` in Python from *Paper*, whose values are the defaults below. This page is
+written by `tools/settings_page.py` from the declarations in `reflcolor_addon/settings.py`.
 """
 
 

@@ -7,8 +7,10 @@ from mathutils import Matrix
 from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.scan.georeference import origin_shift, rigid_pose
 from ...reflcolor_addon.scan.scan import Scan
+from ...reflcolor_addon.settings import DEFAULT_PRESET
 from .collections import SCANS, own_collection
 from .images import write_image
+from .kept_settings import keep_settings
 from .nodes import color_node, node_tree_of, show_in_material
 
 GRAY = "Reflectance_Gray"
@@ -37,6 +39,7 @@ def add_scan_object(context, arrays):
     arrays : ObjectArrays
     """
     scene = context.scene
+    keep_settings(DEFAULT_PRESET, [scene])
     pose = arrays.pose.copy()
     shift = origin_shift(pose[:3, 3], scene.get(SHIFT))
     pose[:3, 3] = (pose[:3, 3] - shift) * arrays.units_per_metre

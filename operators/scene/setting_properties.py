@@ -1,5 +1,6 @@
 """The core's settings as Blender's properties, made from their declarations, and back."""
 
+import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ...reflcolor_addon.settings import DEFAULT_PRESET, MATCHING, PROPAGATION, SETTINGS, Settings
@@ -79,22 +80,35 @@ def _settings(chosen):
     if "blend" in chosen:
         blend = chosen.pop("blend")
         chosen["nearest"] = chosen["nearest"] if blend == _NUMBER else SETTINGS["nearest"].named(blend)
-    return Settings(
-        **{name: value if SETTINGS[name].kind else SETTINGS[name].named(value) for name, value in chosen.items()}
-    )
+    return Settings(**{name: _core_value(SETTINGS[name], value) for name, value in chosen.items()})
 
 
-def take_over(holder, chosen):
-    """Set the properties that presets set to the core's Settings.
+def _core_value(setting, value):
+    if not setting.kind:
+        return setting.named(value)
+    # Blender holds 0.6 in single precision; the shortest number that is stored so is the one that was meant.
+    return float(str(np.float32(value))) if setting.kind is float else value
+
+
+def take_over(holder, chosen, *, unset_only=False):
+    """Set the properties that presets set to the core's Settings; with ``unset_only`` those that have no value yet.
 
     The paper's exact blending becomes Automatic, which is exact where that is quick.
     """
+    for name, value in _properties_of(chosen).items():
+        if not (unset_only and holder.is_property_set(name)):
+            setattr(holder, name, value)
+
+
+def _properties_of(chosen):
+    found = {}
     for name, setting in SETTINGS.items():
         value = getattr(chosen, name)
         if setting.group != PROPAGATION or not setting.in_presets:
             continue
         if name == "nearest":
-            holder.blend = _NUMBER if isinstance(value, int) else "auto"
+            found["blend"] = _NUMBER if isinstance(value, int) else "auto"
             if not isinstance(value, int):
                 continue
-        setattr(holder, name, value if setting.kind else setting.name_of(value))
+        found[name] = value if setting.kind else setting.name_of(value)
+    return found
