@@ -60,6 +60,18 @@ class UsageError(Exception):
         super().__init__(self.message)
 
 
+def require_kind(argument, kind, name, way, error=ReflcolorError):
+    """Raise an error where an argument is of another type than expected; ``way`` says how to make a right one."""
+    if not isinstance(argument, kind):
+        raise error(
+            "{name}: expected {kind}, found {found}; {way}",
+            name=name,
+            kind=kind.__name__,
+            found=type(argument).__name__,
+            way=way,
+        )
+
+
 def _message(template, values):
     if values:
         return Message(template, **values)

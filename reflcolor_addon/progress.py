@@ -1,6 +1,13 @@
-"""Progress of several pieces of work as that of one."""
+"""How long work tells of its progress and is cancelled; progress of several pieces of work as that of one."""
+
+from collections.abc import Callable
 
 from .messages import Message
+
+Progress = Callable[[float, str], object]
+"""``progress(fraction, text)``, called now and then with a fraction of 0 to 1."""
+IsCancelled = Callable[[], bool]
+"""``cancelled()``, asked now and then; when it returns True, the work ends with `Cancelled`."""
 
 
 def part(progress, number, count, name):

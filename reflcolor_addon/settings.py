@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 from inspect import cleandoc
 
 from .declaration import Choice, parameter_lines, setting, settings_of
-from .errors import SettingsError
+from .errors import SettingsError, require_kind
 from .messages import Message
 
 PROPAGATION, MATCHING = "propagation", "matching"
@@ -25,6 +25,16 @@ class Settings:
     ------
     SettingsError
         If a value is out of its range.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import Settings
+    >>> Settings(alpha=4).alpha, Settings.preset("Enhanced", tone=1.2).nearest
+    (4, 8)
+    >>> Settings(alpha=0)
+    Traceback (most recent call last):
+    ...
+    reflcolor_addon.errors.SettingsError: alpha: expected a number from 0.1 to 64, found 0
     """
 
     alpha: float = setting(
@@ -223,7 +233,7 @@ class Settings:
             )
 
     @classmethod
-    def preset(cls, name, **changes):
+    def preset(cls, name: str, **changes) -> "Settings":
         """Return the settings of that name, one of `PRESETS`, with the given changes.
 
         Raises
@@ -240,9 +250,16 @@ class Settings:
             )
         return replace(cls(**PRESETS[name].values), **changes)
 
-    def as_dict(self):
+    def as_dict(self) -> dict:
         """Return name and value of every setting, in order, as they go into a report."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
+def settings_or_default(settings):
+    """Return settings, the paper's where there are none; raises a SettingsError where they are something else."""
+    settings = Settings() if settings is None else settings
+    require_kind(settings, Settings, "settings", "write Settings(alpha=6) or Settings.preset(name)", SettingsError)
+    return settings
 
 
 SETTINGS = settings_of(Settings)

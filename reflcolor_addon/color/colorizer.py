@@ -15,8 +15,11 @@ from ..geodesic.exact import HeldFields, add_fields
 from ..geodesic.graph import PixelGraph
 from ..geodesic.smoothing import smooth
 from ..messages import Message
+from ..progress import IsCancelled, Progress
 from ..scan.normalization import normalize
-from ..settings import Settings
+from ..scan.scan import Scan, require_scan
+from ..seeds.seeds import Seeds, require_seeds
+from ..settings import Settings, settings_or_default
 from . import colorspaces, nearest_seeds
 from .colorization import Colorization
 from .kriging import MAX_SEEDS, Kriging, pixel_features, share
@@ -80,9 +83,26 @@ class Colorizer:
     ------
     ReflcolorError
         If the memory that is free will not do.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import Colorizer, Seeds, read_scans
+    >>> colorizer = Colorizer(read_scans("garage.ptx")[0])
+    >>> first = colorizer.colorize(Seeds([1], [2], [[200, 80, 40]]))
+    >>> second = colorizer.colorize(Seeds([1, 15], [2, 20], [[200, 80, 40], [20, 80, 220]]))  # one field more
+    >>> int(first.nearest_seed.max()), int(second.nearest_seed.max())
+    (0, 1)
     """
 
-    def __init__(self, scan, settings=None, *, memory=_DEFAULT_MEMORY, threads=None):
+    def __init__(
+        self,
+        scan: Scan,
+        settings: Settings | None = None,
+        *,
+        memory: int = _DEFAULT_MEMORY,
+        threads: int | None = None,
+    ) -> None:
+        require_scan(scan)
         self.scan = scan
         self.threads = threads or os.cpu_count() or 1
         self._fields = HeldFields(memory)
@@ -90,18 +110,27 @@ class Colorizer:
         self._median = float(np.median(self._luminance[scan.valid])) if scan.valid.any() else 0.0
         self._range_image, range_limits = normalize(scan.range, scan.valid)
         self._normalization = {"reflectance": reflectance_limits, "range": range_limits}
-        self.settings = self._held = None
-        self._use(settings or Settings())
+        self._held = None
+        self.settings: Settings = None  # type: ignore[assignment]  # until the next line
+        self._use(settings)
 
     @property
     def held_bytes(self):
         """Bytes that the fields take now."""
         return self._fields.nbytes
 
-    def colorize(self, seeds, settings=None, *, progress=None, cancelled=None):
+    def colorize(
+        self,
+        seeds: Seeds,
+        settings: Settings | None = None,
+        *,
+        progress: Progress | None = None,
+        cancelled: IsCancelled | None = None,
+    ) -> Colorization:
         """Colorize the scan; parameters, result and errors are those of ``colorize``."""
         progress = progress or (lambda fraction, text: None)
         cancelled = cancelled or (lambda: False)
+        require_seeds(seeds)
         seeds, warnings = seeds.placed_on(self.scan)
         spread, more = self.spread(seeds, settings, progress=progress, cancelled=cancelled)
         progress(_COLORED, "Writing the colors")
@@ -201,6 +230,7 @@ class Colorizer:
 
     def _use(self, settings):
         """Take over settings; what they make void is dropped."""
+        settings = settings_or_default(settings)
         before, self.settings = self.settings, settings
         if before is None or before.smoothing != settings.smoothing:
             self._smoothed = smooth(self._luminance, self.scan.valid, settings.smoothing, wrap=self.scan.full_turn)
@@ -339,7 +369,14 @@ class Colorizer:
         return estimate, kriging.residuals
 
 
-def colorize(scan, seeds, settings=None, *, progress=None, cancelled=None):
+def colorize(
+    scan: Scan,
+    seeds: Seeds,
+    settings: Settings | None = None,
+    *,
+    progress: Progress | None = None,
+    cancelled: IsCancelled | None = None,
+) -> Colorization:
     """Colorize a scan from seeds: eq. 1, 2, 5 and 6.
 
     Parameters
@@ -365,6 +402,21 @@ def colorize(scan, seeds, settings=None, *, progress=None, cancelled=None):
         If the memory that is free will not do.
     Cancelled
         If ``cancelled()`` returned True.
+
+    References
+    ----------
+    .. [1] S. Oishi, R. Kurazume, Y. Iwashita, T. Hasegawa, "Colorization of 3D Geometric Model utilizing Laser
+       Reflectivity", ICRA 2013.
+    .. [2] L. Yatziv, G. Sapiro, "Fast image and video colorization using chrominance blending", IEEE Transactions on
+       Image Processing 15(5), 2006: the same with ``beta=0``.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import Seeds, Settings, colorize, read_scans
+    >>> scan = read_scans("garage.ptx")[0]
+    >>> result = colorize(scan, Seeds([1, 15], [2, 20], [[200, 80, 40], [20, 80, 220]]), Settings(alpha=4))
+    >>> result.rgb.shape, result.rgb.dtype, result.confidence.shape
+    ((20, 30, 3), dtype('uint8'), (20, 30))
     """
     # Nothing is colorized a second time, so no field needs to be kept.
     return Colorizer(scan, settings, memory=0).colorize(seeds, progress=progress, cancelled=cancelled)

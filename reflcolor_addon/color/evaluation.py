@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ..errors import ScanError
+from ..messages import Message
 from ..srgb import linear_to_srgb8, srgb8_to_linear
 from .colorspaces import LUMA, chrominance, merge
 
@@ -14,7 +15,7 @@ _CHUNK_PIXELS = 1 << 17
 _WINDOW = 7
 
 
-def evaluate(rgb, truth, valid):
+def evaluate(rgb: np.ndarray, truth: np.ndarray, valid: np.ndarray) -> dict:
     """Compare colors with the true ones.
 
     Parameters
@@ -41,7 +42,16 @@ def evaluate(rgb, truth, valid):
     Raises
     ------
     ScanError
-        If the shapes disagree, or no pixel is to be compared.
+        If shapes or types disagree, or no pixel is to be compared.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from reflcolor_addon import evaluate
+    >>> truth = np.full((8, 8, 3), (200, 80, 40), np.uint8)
+    >>> figures = evaluate(truth // 2, truth, np.ones((8, 8), bool))
+    >>> figures["pixels"], figures["as_is"]["ciede2000_mean"] > figures["after_gain"]["ciede2000_mean"]
+    (64, True)
     """
     _check(rgb, truth, valid)
     seen, true = rgb[valid], truth[valid]
@@ -55,10 +65,18 @@ def evaluate(rgb, truth, valid):
     }
 
 
-def error_map(rgb, truth, valid):
+def error_map(rgb: np.ndarray, truth: np.ndarray, valid: np.ndarray) -> np.ndarray:
     """Return the (H, W) float32 CIEDE2000 of the colors as they come at every pixel; NaN where not valid.
 
     Parameters and errors are those of `evaluate`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from reflcolor_addon import error_map
+    >>> image = np.zeros((2, 2, 3), np.uint8)
+    >>> error_map(image, image, np.array([[True, True], [True, False]])).tolist()
+    [[0.0, 0.0], [0.0, nan]]
     """
     _check(rgb, truth, valid)
     errors = np.full(valid.shape, np.nan, np.float32)
@@ -72,10 +90,20 @@ def with_luminance_of(rgb, truth):
 
 
 def _check(rgb, truth, valid):
+    kind = np.asarray(valid).dtype
+    if kind.kind != "b":
+        raise ScanError("valid: expected booleans, found {kind}; write valid > 0", kind=str(kind))
     expected = (*np.shape(valid), 3)
     for name, image in (("colors", rgb), ("true colors", truth)):
         if np.shape(image) != expected:
-            raise ScanError(f"{name}: expected an image of shape {expected}, found {np.shape(image)}")
+            raise ScanError(
+                "{image}: expected an image of shape {shape}, found {found}",
+                image=Message(name),
+                shape=expected,
+                found=np.shape(image),
+            )
+        if (found := np.asarray(image).dtype) != np.uint8:
+            raise ScanError("{image}: expected uint8, found {found}", image=Message(name), found=str(found))
     if not np.any(valid):
         raise ScanError("no pixel has both a return and a true color, so there is nothing to compare")
 

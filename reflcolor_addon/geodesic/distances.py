@@ -1,17 +1,27 @@
 """Geodesic distances over the pixels of a scan (eq. 5)."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..errors import ScanError, SeedsError
 from ..scan.normalization import normalize
 from ..scan.scan import Scan
-from ..settings import Settings
+from ..settings import Settings, settings_or_default
 from .engines import engine_for
 from .graph import PixelGraph
 from .smoothing import smooth
 
 
-def geodesic_distances(scan, rows, cols, settings=None, *, range_image=None, valid=None, full_turn=False):
+def geodesic_distances(
+    scan: Scan | ArrayLike,
+    rows: ArrayLike,
+    cols: ArrayLike,
+    settings: Settings | None = None,
+    *,
+    range_image: ArrayLike | None = None,
+    valid: ArrayLike | None = None,
+    full_turn: bool = False,
+) -> np.ndarray:
     """Return the distance of every pixel to each of some pixels, along the path of least cost.
 
     The cost from a pixel p to its neighbor q is ``(beta (D_q - D_p)^2 + 1) |Y_q - Y_p|`` (eq. 6 of [1]_), where Y is
@@ -58,21 +68,21 @@ def geodesic_distances(scan, rows, cols, settings=None, *, range_image=None, val
     >>> geodesic_distances(reflectance, 1, 0)[0].tolist()
     [[0.0, 255.0], [0.0, 255.0], [0.0, 255.0]]
     """
-    settings = settings or Settings()
+    settings = settings_or_default(settings)
     if isinstance(scan, Scan):
-        reflectance, ranges, valid, full_turn = scan.reflectance, scan.range, scan.valid, scan.full_turn
+        reflectance, ranges, there, full_turn = scan.reflectance, scan.range, scan.valid, scan.full_turn
     else:
-        reflectance, ranges, valid = _plain(scan, range_image, valid)
-    luminance, _ = normalize(reflectance, valid)
+        reflectance, ranges, there = _plain(scan, range_image, valid)
+    luminance, _ = normalize(reflectance, there)
     graph = PixelGraph(
-        luminance=smooth(luminance, valid, settings.smoothing, wrap=full_turn),
-        range_image=normalize(ranges, valid)[0],
-        valid=valid,
+        luminance=smooth(luminance, there, settings.smoothing, wrap=full_turn),
+        range_image=normalize(ranges, there)[0],
+        valid=there,
         beta=settings.beta,
         neighbors=settings.neighbors,
         wrap=full_turn,
     )
-    return distances_over(graph, *_pixels(rows, cols, valid))
+    return distances_over(graph, *_pixels(rows, cols, there))
 
 
 def distances_over(graph, rows, cols):
@@ -93,6 +103,8 @@ def _plain(reflectance, range_image, valid):
     ranges = np.zeros(reflectance.shape) if range_image is None else np.asarray(range_image)
     finite = np.isfinite(reflectance) & np.isfinite(ranges) if ranges.shape == reflectance.shape else None
     valid = finite if valid is None else np.asarray(valid)
+    if valid is not None and valid.dtype.kind != "b":
+        raise ScanError("valid: expected booleans, found {kind}; write valid > 0", kind=str(valid.dtype))
     for name, array, kinds in (("range_image", ranges, "biuf"), ("valid", valid, "b")):
         if array is not None and (array.shape != reflectance.shape or array.dtype.kind not in kinds):
             raise ScanError(

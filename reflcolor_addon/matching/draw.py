@@ -2,7 +2,10 @@
 
 import numpy as np
 
+from ..scan.scan import Scan
+from ..seeds.seeds import Seeds
 from ..seeds.sources import SOURCES
+from .photo_image import Photos
 from .scan_image import pixel_steps, toned
 from .superpixels import sized
 
@@ -12,7 +15,7 @@ _MOST_LINES = 250
 _PLAIN = (200, 200, 200)
 
 
-def draw_matches(scan, photos, seeds):
+def draw_matches(scan: Scan, photos: Photos, seeds: Seeds) -> np.ndarray:
     """Draw where each seed's color comes from.
 
     Parameters
@@ -26,8 +29,14 @@ def draw_matches(scan, photos, seeds):
     -------
     (H, W, 3) uint8
         The reflectance on square pixels with the seeds in their colors, the photos beside it, and lines between; green
-        for ``pose``, blue for ``homography``, orange for ``appearance``, magenta for ``hand``. Of very many seeds every
-        so manieth has a line, and none has whose confidence is 0: its color is no place's.
+        for ``pose``, blue for ``homography``, orange for ``appearance``, magenta for ``hand``. Of very many
+        seeds only some have a line. A seed of confidence 0 has none: its color comes from no single place.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import Seeds, draw_matches, read_scans
+    >>> draw_matches(read_scans("garage.ptx")[0], ["garage.jpg"], Seeds([1], [2], [[200, 80, 40]])).shape
+    (720, 2168, 3)
     """
     import cv2
 
@@ -52,7 +61,7 @@ def draw_matches(scan, photos, seeds):
         if name in places and np.isfinite(xy).all() and index % every == 0 and seeds.confidence[index] != 0:
             left, photo = places[name]
             end = (left + xy[0] * _HEIGHT / photo.height, xy[1] * _HEIGHT / photo.height)
-            source = SOURCES.get(seeds.reason[index])
+            source = SOURCES.get(seeds.reason[index] or "")
             color = _PLAIN if source is None else source.color
             cv2.line(canvas, _whole(start), _whole(end), color, 1, cv2.LINE_AA)
             cv2.circle(canvas, _whole(end), 3, color, -1, cv2.LINE_AA)

@@ -1,5 +1,6 @@
 """Method 2: from a scan, or all scans of a site, and photos to seeds."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -7,10 +8,12 @@ import numpy as np
 
 from ..errors import Cancelled, ImageError, SeedsError
 from ..files.images import read_image
+from ..progress import IsCancelled, Progress
+from ..scan.scan import Scan, require_scan
 from ..seeds.seeds import Seeds
-from ..settings import Settings
+from ..settings import Settings, settings_or_default
 from . import site
-from .photo_image import PhotoImage
+from .photo_image import PhotoImage, Photos
 from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .scan_image import toned
 
@@ -69,17 +72,42 @@ class Matching:
     warnings: tuple[str, ...]
 
 
-def match_seeds(scan, photos, settings=None, *, hand=None, kept=None, progress=None, cancelled=None):
+def match_seeds(
+    scan: Scan,
+    photos: Photos,
+    settings: Settings | None = None,
+    *,
+    hand: Seeds | None = None,
+    kept: Seeds | None = None,
+    progress: Progress | None = None,
+    cancelled: IsCancelled | None = None,
+) -> Seeds:
     """Find seeds in photos; see `match_photos`, which tells more.
 
     Returns
     -------
     Seeds
+
+    Examples
+    --------
+    >>> from reflcolor_addon import Settings, match_seeds, read_scans
+    >>> seeds = match_seeds(read_scans("garage.ptx")[0], ["garage.jpg"], Settings(guess=True))
+    >>> len(seeds) > 0, seeds.all_guessed
+    (True, True)
     """
     return match_photos(scan, photos, settings, hand=hand, kept=kept, progress=progress, cancelled=cancelled).seeds
 
 
-def match_photos(scan, photos, settings=None, *, hand=None, kept=None, progress=None, cancelled=None):
+def match_photos(
+    scan: Scan,
+    photos: Photos,
+    settings: Settings | None = None,
+    *,
+    hand: Seeds | None = None,
+    kept: Seeds | None = None,
+    progress: Progress | None = None,
+    cancelled: IsCancelled | None = None,
+) -> Matching:
     """Find seeds for one scan in photos: Method 2.
 
     Parameters
@@ -114,11 +142,32 @@ def match_photos(scan, photos, settings=None, *, hand=None, kept=None, progress=
         If a photo cannot be read or is smaller than 16 pixels a side.
     Cancelled
         If ``cancelled()`` returned True.
+
+    References
+    ----------
+    .. [1] S. Oishi, R. Kurazume, Y. Iwashita, T. Hasegawa, "Colorization of 3D Geometric Model utilizing Laser
+       Reflectivity", ICRA 2013: the photos' part of the method. Verified cameras are not in the paper.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import match_photos, read_scans
+    >>> matching = match_photos(read_scans("garage.ptx")[0], ["garage.jpg"])
+    >>> [(photo.name, photo.verified) for photo in matching.photos]
+    [('garage.jpg', False)]
     """
     return match_site([scan], photos, settings, hand=[hand], kept=[kept], progress=progress, cancelled=cancelled)[0]
 
 
-def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=None, cancelled=None):
+def match_site(
+    scans: Sequence[Scan],
+    photos: Photos,
+    settings: Settings | None = None,
+    *,
+    hand: Sequence[Seeds | None] | None = None,
+    kept: Sequence[Seeds | None] | None = None,
+    progress: Progress | None = None,
+    cancelled: IsCancelled | None = None,
+) -> list[Matching]:
     """Find seeds for all scans of a site in the same photos, with one exposure for all and one model of appearance.
 
     Where the scans have poses, a photo verified on one scan is tried on the others where that puts it.
@@ -140,17 +189,25 @@ def match_site(scans, photos, settings=None, *, hand=None, kept=None, progress=N
     ------
     SeedsError, ImageError, Cancelled
         As `match_photos`.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import match_site, read_scans
+    >>> scans = read_scans("garage.ptx")
+    >>> len(match_site(scans, ["garage.jpg"])) == len(scans)
+    True
     """
-    settings = settings or Settings()
+    settings = settings_or_default(settings)
     progress = progress or (lambda fraction, text: None)
     cancelled = cancelled or (lambda: False)
     for scan in scans:
+        require_scan(scan)
         if not scan.valid.any():
             raise SeedsError(f"{scan.name}: no pixel has a return, so nothing can be matched")
     hand = [None if own is None else _picked(own) for own in _placed(hand, scans)]
     kept = _placed(kept, scans)
     progress(0.0, "Opening the photos")
-    of_files = []
+    of_files: list[str] = []
     opened = opened_photos(photos, of_files)
     if not opened:
         raise SeedsError("no photo: give at least one")

@@ -1,6 +1,8 @@
 """A photo at several sizes, seen through a model as the scan's pixels see it."""
 
+from collections.abc import Sequence
 from functools import cached_property
+from os import PathLike
 
 import numpy as np
 
@@ -10,6 +12,10 @@ from .models import within
 # Longer sides, in pixels, of the images of a photo.
 _SIDES = tuple(2048 * 2 ** (-half / 2) for half in range(13))
 _LARGEST_COLOR_SIDE = 6000
+
+_Photo = PathLike | str | np.ndarray | tuple[str, np.ndarray]
+Photos = _Photo | Sequence[_Photo]
+"""Paths of photos, their pixels (H, W, 3) uint8 sRGB, or names and pixels; or only one of these."""
 
 
 class PhotoImage:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import ScanError
+from ..errors import ScanError, require_kind
 from ..messages import LONGEST_LINE, Message, one_line
 from .limits import FARTHEST_M, LONGEST_NAME, MOST_PIXELS, SCALES, STRONGEST
 
@@ -37,8 +37,20 @@ class Scan:
     Raises
     ------
     ScanError
-        If shapes disagree, the grid is empty, or a valid pixel or the pose holds a number that is not finite or beyond
-        all reason (`limits`).
+        If shapes or types disagree, the grid is empty, or a valid pixel or the pose holds a number that is not finite
+        or beyond all reason (`limits`).
+
+    Examples
+    --------
+    A wall two meters ahead, seen at 2 x 3 pixels of 0.1 radians:
+
+    >>> import numpy as np
+    >>> from reflcolor_addon import Scan
+    >>> up, right = np.meshgrid([0.1, 0.0], [-0.1, 0.0, 0.1], indexing="ij")
+    >>> points = np.stack([2 * right, np.full((2, 3), 2.0), 2 * up], axis=-1)
+    >>> scan = Scan(name="wall", points=points, reflectance=np.ones((2, 3)), valid=np.ones((2, 3), bool))
+    >>> scan.shape, round(float(scan.range.max()), 2)
+    ((2, 3), 2.02)
     """
 
     name: str
@@ -54,6 +66,7 @@ class Scan:
         object.__setattr__(self, "name", one_line(str(self.name), LONGEST_NAME))
         object.__setattr__(self, "warnings", tuple(map(_as_line, self.warnings)))
         shape = np.shape(self.valid)
+        self._require_types()
         if len(shape) != 2 or 0 in shape:
             raise self._error("a scan is a grid of rows x columns, found shape {shape}", shape=shape)
         if shape[0] * shape[1] > MOST_PIXELS:
@@ -89,6 +102,16 @@ class Scan:
         for key, array in arrays.items():
             object.__setattr__(self, key, array)
 
+    def _require_types(self):
+        """What NumPy would convert without a word, and rarely as it was meant."""
+        for key, kinds in (("points", "iuf"), ("reflectance", "biuf"), ("valid", "b"), ("pose", "iuf")):
+            kind = np.asarray(getattr(self, key)).dtype
+            if kind.kind in kinds:
+                continue
+            if key == "valid":
+                raise self._error("valid: expected booleans, found {kind}; write valid > 0", kind=str(kind))
+            raise self._error("{array}: expected numbers, found {kind}", array=key, kind=str(kind))
+
     def _require_plausible(self, points, reflectance, valid, pose):
         """The one gate that every reader's numbers pass."""
         if not np.isfinite(pose).all():
@@ -112,18 +135,18 @@ class Scan:
         return ScanError("{scan}: " + template, scan=self.name, **values)
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, int]:
         """(H, W): rows and columns of the grid."""
         return self.valid.shape
 
     @cached_property
-    def has_reflectance(self):
+    def has_reflectance(self) -> bool:
         """False where it is the same everywhere, as files without any have it: then there is nothing to colorize by."""
         seen = self.reflectance[self.valid]
         return seen.size < 2 or bool(seen.min() < seen.max())
 
     @cached_property
-    def range(self):
+    def range(self) -> np.ndarray:
         """(H, W) float64, metres from the scanner; 0 where not valid."""
         return np.sqrt(np.einsum("ijk,ijk->ij", self.points, self.points))
 
@@ -140,7 +163,7 @@ class Scan:
         return columns, np.arctan2(sine, cosine)
 
     @cached_property
-    def step_deg(self):
+    def step_deg(self) -> tuple[float, float]:
         """(vertical, horizontal) angle between neighboring pixels in degrees; NaN where it cannot be measured."""
         elevation = np.arctan2(self.points[..., 2], np.hypot(self.points[..., 0], self.points[..., 1]))
         both = self.valid[1:] & self.valid[:-1]
@@ -150,14 +173,14 @@ class Scan:
         return float(vertical), float(np.degrees(np.median(turn))) if turn.size else float("nan")
 
     @property
-    def pixel_aspect(self):
+    def pixel_aspect(self) -> float:
         """Width of a pixel over its height, as angles; 1 where they are nearly equal or cannot be measured."""
         vertical, horizontal = self.step_deg
         aspect = horizontal / vertical if vertical > 0 and horizontal > 0 else 1.0
         return float(aspect) if not 0.9 < aspect < 1.1 and 0.02 < aspect < 50 else 1.0
 
     @cached_property
-    def full_turn(self):
+    def full_turn(self) -> bool:
         """True where the left and the right edge of the grid are neighbors: the scan covers 360 degrees."""
         columns, azimuth = self._azimuth_steps
         width = self.shape[1]
@@ -169,6 +192,11 @@ class Scan:
         covered = abs(turn.sum())
         joint = (width - columns[-1] + columns[0]) * step
         return bool(step > 0 and abs(covered + joint - 2 * np.pi) < 1.5 * step + 0.02 * joint)
+
+
+def require_scan(scan):
+    """Raise a ScanError where something else than a Scan was given."""
+    require_kind(scan, Scan, "scan", "read_scans reads files, Scan(name=..., points=...) takes arrays", ScanError)
 
 
 def is_plausible(pose):

@@ -1,5 +1,6 @@
 """A colored scan as vertices and faces, handed out strip by strip, so that a large one is written in little memory."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from .georeference import local_center
 from .grid_mesh import CORNERS, MAX_INCIDENCE_DEG, STRIP_PIXELS, face_mask, quads_of
+from .scan import Scan
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -58,9 +60,24 @@ class ScanSurface:
         float32 or int32, by the names of what every vertex has: ``reflectance``, ``range``, ``grid_row``, ``grid_col``
         and those of ``values``.
     vertex_count : int
+
+    Examples
+    --------
+    >>> from reflcolor_addon import ScanSurface, read_scans
+    >>> scan = read_scans("garage.ptx")[0]
+    >>> ScanSurface(scan, None).vertex_count == int(scan.valid.sum())
+    True
     """
 
-    def __init__(self, scan, rgb, values=None, *, max_incidence_deg=MAX_INCIDENCE_DEG, split_seam=False):
+    def __init__(
+        self,
+        scan: Scan,
+        rgb: np.ndarray | None,
+        values: Mapping[str, np.ndarray] | None = None,
+        *,
+        max_incidence_deg: float = MAX_INCIDENCE_DEG,
+        split_seam: bool = False,
+    ) -> None:
         self.scan, self.name, self.shape, self.pose = scan, scan.name, scan.shape, scan.pose
         self._rgb, self._max_incidence_deg = rgb, max_incidence_deg
         self._split = split_seam and scan.full_turn

@@ -3,13 +3,15 @@
 import json
 import math
 import reprlib
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from numbers import Integral, Real
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
-from ..errors import SeedsError
+from ..errors import SeedsError, require_kind
 from ..files.atomic import written_atomically
 from ..files.gate import beside
 from ..files.images import read_image
@@ -49,15 +51,24 @@ class Seeds:
     ------
     SeedsError
         If the arrays disagree in length, or hold what is no pixel or no color.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import Seeds
+    >>> seeds = Seeds(rows=[10, 5], cols=[20, 7], rgb=[[200, 80, 40], [40, 90, 60]])
+    >>> seeds.save("garage.seeds.json")
+    >>> len(Seeds.load("garage.seeds.json"))
+    2
     """
 
     rows: np.ndarray
     cols: np.ndarray
     rgb: np.ndarray
-    photos: tuple[str | None, ...] | None = None
-    photo_xy: np.ndarray | None = None
-    confidence: np.ndarray | None = None
-    reason: tuple[str | None, ...] | None = None
+    # None only until __post_init__ has put arrays in its place.
+    photos: tuple[str | None, ...] = None  # type: ignore[assignment]
+    photo_xy: np.ndarray = None  # type: ignore[assignment]
+    confidence: np.ndarray = None  # type: ignore[assignment]
+    reason: tuple[str | None, ...] = None  # type: ignore[assignment]
 
     def __post_init__(self):
         count = np.size(self.rows)
@@ -93,25 +104,25 @@ class Seeds:
         return self.rows.size
 
     @property
-    def all_guessed(self):
+    def all_guessed(self) -> bool:
         """True where no color was picked by a person or seen by a photo that was verified."""
         return len(self) > 0 and GUESSED.issuperset(self.reason)
 
-    def chosen(self, indices):
+    def chosen(self, indices) -> "Seeds":
         """Return the seeds of these indices, in their order."""
         indices = np.asarray(indices, np.int64)
         return Seeds(
             rows=self.rows[indices],
             cols=self.cols[indices],
             rgb=self.rgb[indices],
-            photos=[self.photos[index] for index in indices],
+            photos=tuple(self.photos[index] for index in indices),
             photo_xy=self.photo_xy[indices],
             confidence=self.confidence[indices],
-            reason=[self.reason[index] for index in indices],
+            reason=tuple(self.reason[index] for index in indices),
         )
 
     @classmethod
-    def load(cls, path, photos=()):
+    def load(cls, path: PathLike | str, photos: Iterable[PathLike | str] = ()) -> "Seeds":
         """Read seeds from a JSON file.
 
         A seed has ``row`` and ``col`` and either ``rgb`` or a point of a photo: ``photo``, ``x``, ``y``, in pixels from
@@ -133,7 +144,7 @@ class Seeds:
         path = Path(path)
         return _SeedsFile(path, photos).seeds()
 
-    def save(self, path):
+    def save(self, path: PathLike | str) -> None:
         """Write the seeds as JSON; the file is whole or not there.
 
         Raises
@@ -210,6 +221,11 @@ class Seeds:
                 )
             ]
         return replace(self, rows=rows, cols=cols), warnings
+
+
+def require_seeds(seeds):
+    """Raise a SeedsError where something else than Seeds was given."""
+    require_kind(seeds, Seeds, "seeds", "write Seeds(rows, cols, rgb), or Seeds.load(path)", SeedsError)
 
 
 def nearest_valid(valid, row, col, *, wrap=False):

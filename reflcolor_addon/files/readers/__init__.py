@@ -1,10 +1,13 @@
 """Opens scan files of every format that is listed here; a format is a module with a `FORMAT`."""
 
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import ScanError
+from ...progress import IsCancelled, Progress
+from ...scan.scan import Scan
 from ..gate import opened
 from . import e57, image_pair, numpy_arrays, pcd, ply, ptx, text_cloud
 from .formats import REFUSED
@@ -22,7 +25,14 @@ _EXPECTED = f"a scan file ({', '.join(SCAN_SUFFIXES)})"
 _START = 512
 
 
-def read_scans(path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
+def read_scans(
+    path: PathLike | str,
+    *,
+    options: ReadOptions = AS_IT_IS,
+    outside: bool = False,
+    progress: Progress | None = None,
+    cancelled: IsCancelled | None = None,
+) -> list[Scan]:
     """Read every scan of a file, upright and not mirrored.
 
     Parameters
@@ -49,6 +59,13 @@ def read_scans(path, *, options=AS_IT_IS, outside=False, progress=None, cancelle
         One line: file, place, what was expected.
     Cancelled
         If `cancelled()` returned True.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import read_scans
+    >>> for scan in read_scans("garage.ptx"):
+    ...     print(scan.name, scan.shape, scan.reflectance.dtype)
+    garage (20, 30) float32
     """
     path = Path(path)
     try:

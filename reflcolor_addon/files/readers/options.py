@@ -38,6 +38,12 @@ class ReadOptions:
     ------
     UsageError
         If a value is none of these.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import ReadOptions, read_scans
+    >>> read_scans("garage.ptx", options=ReadOptions(step=2))[0].shape
+    (10, 15)
     """
 
     turn_deg: int = 0

@@ -2,18 +2,21 @@
 
 import hashlib
 import uuid
+from collections.abc import Iterable
+from os import PathLike
 
 import numpy as np
 
 from ...errors import OutputError
 from ...scan.rotations import quaternion
+from ...scan.scan import Scan
 from ..atomic import written_atomically
 
 _MOST_PER_SIDE = 65536
 _COLORS = ("colorRed", "colorGreen", "colorBlue")
 
 
-def write_e57(scans, path):
+def write_e57(scans: Scan | Iterable[Scan], path: PathLike | str) -> None:
     """Write scans into an E57: Cartesian points of the returns with row and column, intensity, pose, color if any.
 
     The same scans give the same bytes: identifiers come from the content and times are zero.
@@ -29,8 +32,13 @@ def write_e57(scans, path):
     OutputError
         If a pose scales or shears, a grid has more than 65536 rows or columns, a scan has no return, this platform has
         no pye57, or the file cannot be written.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import read_scans, write_e57
+    >>> write_e57(read_scans("garage.ptx"), "garage.e57")
     """
-    scans = [scans] if hasattr(scans, "points") else list(scans)
+    scans = [scans] if isinstance(scans, Scan) else list(scans)
     for scan in scans:
         _check(scan, path)
     try:

@@ -2,12 +2,18 @@
 
 import json
 import struct
+from collections.abc import Sequence
+from os import PathLike
+from pathlib import Path
 
 import numpy as np
 
 from ...errors import Cancelled, OutputError
+from ...progress import IsCancelled, Progress
 from ...scan.georeference import origin_shift
+from ...scan.mesh_surface import MeshSurface
 from ...scan.rotations import quaternion
+from ...scan.surface import ScanSurface
 from ...srgb import srgb8_to_linear
 from ...version import __version__
 from ..atomic import written_atomically
@@ -56,7 +62,14 @@ def _glb_bytes(surfaces, textures, triangles):
     return size
 
 
-def write_glb(surfaces, path, *, textures=None, progress=None, cancelled=None):
+def write_glb(
+    surfaces: Sequence[ScanSurface | MeshSurface],
+    path: PathLike | str,
+    *,
+    textures: Sequence[bytes | None] | None = None,
+    progress: Progress | None = None,
+    cancelled: IsCancelled | None = None,
+) -> None:
     """Write colored scans into a GLB: a node for each, in metres, Y up.
 
     A node stands where the scanner stood, whole kilometres taken off as in Blender's scene; the extra
@@ -79,7 +92,15 @@ def write_glb(surfaces, path, *, textures=None, progress=None, cancelled=None):
         If the file would have more than 4 GiB, or cannot be written.
     Cancelled
         If ``cancelled()`` returned True.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import ScanSurface, Seeds, colorize, read_scans, write_glb
+    >>> scan = read_scans("garage.ptx")[0]
+    >>> result = colorize(scan, Seeds([1], [2], [[200, 80, 40]]))
+    >>> write_glb([ScanSurface(scan, result.rgb, result.values)], "garage.glb")
     """
+    path = Path(path)
     textures = textures or [None] * len(surfaces)
     check_glb_size(surfaces, path, textures=textures)
     document = _Document()

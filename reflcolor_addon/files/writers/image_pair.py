@@ -1,11 +1,13 @@
 """A scan into a pair of images, range and reflectance, and the small file that describes them."""
 
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import OutputError
 from ...scan.directions import directions
+from ...scan.scan import Scan
 from ..images import write_png
 from ..readers.scan_json import write_scan_json
 
@@ -15,7 +17,14 @@ _FULL = 65535
 _GRID_TOLERANCE = 0.25
 
 
-def write_image_pair(scan, path, *, range_scale=1e-4, azimuth_deg=None, elevation_deg=None):
+def write_image_pair(
+    scan: Scan,
+    path: PathLike | str,
+    *,
+    range_scale: float = 1e-4,
+    azimuth_deg: tuple[float, float] | None = None,
+    elevation_deg: tuple[float, float] | None = None,
+) -> None:
     """Write ``NAME.scan.json`` and its images: ``NAME.range.png``, ``NAME.reflectance.png`` and ``.color.png`` if any.
 
     Range and reflectance have 16 bits; range 0 is no return. Reflectance within 0..1 is stored as 0..65535, whole
@@ -36,6 +45,11 @@ def write_image_pair(scan, path, *, range_scale=1e-4, azimuth_deg=None, elevatio
     ------
     OutputError
         If the points do not lie on such a grid, the name does not end in ``.scan.json``, or a file cannot be written.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import read_scans, write_image_pair
+    >>> write_image_pair(read_scans("garage.ptx")[0], "garage.scan.json")
     """
     path = Path(path)
     if not path.name.endswith(SUFFIX):

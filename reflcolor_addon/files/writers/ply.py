@@ -1,8 +1,15 @@
 """Colored scans into one binary PLY: every return once, in the order of the scan's grid, and the faces between them."""
 
+from collections.abc import Sequence
+from os import PathLike
+from pathlib import Path
+
 import numpy as np
 
 from ...errors import Cancelled, OutputError
+from ...progress import IsCancelled, Progress
+from ...scan.mesh_surface import MeshSurface
+from ...scan.surface import ScanSurface
 from ...version import __version__
 from ..atomic import written_atomically
 
@@ -10,7 +17,13 @@ _TYPES = {np.dtype(np.float32): "float", np.dtype(np.int32): "int"}
 _MOST_VERTICES = 2**31 - 1
 
 
-def write_ply(surfaces, path, *, progress=None, cancelled=None):
+def write_ply(
+    surfaces: Sequence[ScanSurface | MeshSurface],
+    path: PathLike | str,
+    *,
+    progress: Progress | None = None,
+    cancelled: IsCancelled | None = None,
+) -> None:
     """Write colored scans into a PLY.
 
     Vertices are in world coordinates (metres, Z up, double precision), scan after scan, each row by row from the top,
@@ -32,7 +45,15 @@ def write_ply(surfaces, path, *, progress=None, cancelled=None):
         If the file cannot be written.
     Cancelled
         If ``cancelled()`` returned True.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import ScanSurface, Seeds, colorize, read_scans, write_ply
+    >>> scan = read_scans("garage.ptx")[0]
+    >>> result = colorize(scan, Seeds([1], [2], [[200, 80, 40]]))
+    >>> write_ply([ScanSurface(scan, result.rgb, result.values)], "garage.ply")
     """
+    path = Path(path)
     vertices = sum(surface.vertex_count for surface in surfaces)
     if vertices > _MOST_VERTICES:
         raise OutputError(

@@ -1,13 +1,17 @@
 """Scans into a PTX file."""
 
+from collections.abc import Iterable
+from os import PathLike
+
 import numpy as np
 
+from ...scan.scan import Scan
 from ..atomic import written_atomically
 
 _NO_RETURN = "0 0 0 0.500000"
 
 
-def write_ptx(scans, path, *, decimals=6):
+def write_ptx(scans: Scan | Iterable[Scan], path: PathLike | str, *, decimals: int = 6) -> None:
     """Write scans one after the other into a PTX: columns left to right, each from the bottom to the top.
 
     Parameters
@@ -22,8 +26,13 @@ def write_ptx(scans, path, *, decimals=6):
     ------
     OutputError
         If the file cannot be written; nothing is left behind then.
+
+    Examples
+    --------
+    >>> from reflcolor_addon import read_scans, write_ptx
+    >>> write_ptx(read_scans("garage.ptx"), "copy.ptx")
     """
-    scans = [scans] if hasattr(scans, "points") else list(scans)
+    scans = [scans] if isinstance(scans, Scan) else list(scans)
     with written_atomically(path) as temporary, temporary.open("w", encoding="ascii", newline="\n") as file:
         for scan in scans:
             _write_header(file, scan)
