@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from reflcolor_addon import Scan
 from reflcolor_addon.color import kriging
-from reflcolor_addon.color.kriging import FEATURES, Kriging, pixel_features, share
+from reflcolor_addon.color.kriging import FEATURES, Kriging, pixel_features
 from reflcolor_addon.errors import Cancelled
 from reflcolor_addon.native.kriging import exponential_sums
 from reflcolor_addon.native.library import Control
@@ -127,19 +127,6 @@ def test_chunks_cover_all_pixels_once(count):
     for chunk in model.chunks(count):
         covered[chunk] += 1
     assert (covered == 1).all()
-
-
-def test_the_share_goes_to_what_foretells_seeds_better_the_more_so_the_more_there_are():
-    good, bad = np.full((500, 2), 0.1), np.tile([[3.0, -3], [-3, 3]], (250, 1))
-    assert share(good, bad, 0.5) == 1.0
-    assert share(bad, good, 0.5) <= 0.1
-    few = slice(4)
-    assert 0.5 <= share(good[few] * 20, bad[few], 0.5) < 1.0
-
-
-def test_without_evidence_the_share_is_the_expected_one():
-    nothing = np.zeros((9, 2))
-    assert share(nothing, nothing, 0.6) == 0.6
 
 
 def test_features_of_pixels_that_are_alike_are_the_same_and_units_are_as_documented():

@@ -18,10 +18,14 @@ SEEDS = Seeds([1, 4, 8], [2, 9, 5], [[200, 60, 40], [30, 40, 90], [120, 200, 110
 
 
 @pytest.mark.parametrize("settings", [NATURAL, PATHS], ids=["Natural", "paths"])
-def test_one_seed_gives_its_own_color_to_everything_that_it_reaches(settings):
+def test_from_one_seed_everything_has_its_color_and_keeps_half_of_the_scan_s_light_and_dark(settings):
     scan = random_scan(shape=(9, 12))
     result = colorize(scan, Seeds([3], [3], [[90, 60, 40]]), settings)
-    np.testing.assert_array_equal(result.rgb, np.broadcast_to([90, 60, 40], result.rgb.shape))
+    assert np.abs(result.rgb[3, 3].astype(int) - [90, 60, 40]).max() <= 1
+    level = result.rgb @ [0.299, 0.587, 0.114]
+    order = np.argsort(scan.reflectance, axis=None)
+    assert (np.diff(level.ravel()[order]) >= -1).all() and level.max() > 1.5 * level.min()
+    assert (result.rgb[..., 0] >= result.rgb[..., 1]).all() and (result.rgb[..., 1] >= result.rgb[..., 2]).all()
 
 
 @pytest.mark.parametrize("space", [choice.value for choice in SETTINGS["color_space"].choices])

@@ -11,7 +11,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from reflcolor_addon import read_scans  # noqa: E402
+from reflcolor_addon import Seeds, Settings, colorize, read_scans  # noqa: E402
 from reflcolor_addon.scan.normalization import normalize  # noqa: E402
 
 EXAMPLE = ROOT / "examples" / "cones"
@@ -45,7 +45,7 @@ def main() -> None:
         (results[0], "the colorized mesh, to open in Blender"),
         (results[1], "the same for any viewer of glTF"),
         (results[2], "the colorized reflectance image"),
-        (compared, "the reflectance before, the colors after"),
+        (compared, "the reflectance, with the preset Paper, and as it comes"),
         (picture, "the mesh rendered"),
         (report, "sizes, settings, times, hashes"),
     ):
@@ -53,13 +53,15 @@ def main() -> None:
 
 
 def write_before_after(scan_path: Path, colorized: Path, target: Path) -> None:
-    """Put the gray reflectance image and the colorized one side by side."""
+    """Put the gray reflectance image, the colors of the preset Paper and the colorized image side by side."""
     scan = read_scans(scan_path)[0]
     gray, _ = normalize(scan.reflectance, scan.valid)
     before = cv2.cvtColor(np.rint(gray).astype(np.uint8), cv2.COLOR_GRAY2BGR)
+    seeds = Seeds.load(EXAMPLE / "cones.seeds.json", [EXAMPLE / "photo.jpg"])
+    paper = colorize(scan, seeds, Settings.preset("Paper")).rgb[..., ::-1]
     after = cv2.imread(str(colorized), cv2.IMREAD_COLOR)
     gap = np.full((before.shape[0], GAP_PX, 3), 255, np.uint8)
-    cv2.imwrite(str(target), np.hstack([before, gap, after]))
+    cv2.imwrite(str(target), np.hstack([before, gap, paper, gap, after]))
 
 
 def shown(path) -> str:

@@ -29,7 +29,9 @@ def found_by_program(group):
 
 # Each gives the seeds of all scans that are colorized from the same photos.
 METHODS = {"Method 1": picked_by_hand, "Method 2": found_by_program}
-SETTINGS = {"Yatziv": Settings(beta=0)} | {name: Settings.preset(name) for name in PRESETS}
+SETTINGS = {"Yatziv": Settings(beta=0)} | {name: Settings.preset(name) for name in reversed(PRESETS)}
+# Side by side in pictures and tables.
+COMPARED = ("Paper", "Natural")
 WIDTH = 1200
 # Where the whole house is looked at from: place, target, field of view.
 HOUSE_VIEWS = (((-13.5, -15.5, 8.5), (0.2, 0.3, 2.1), 36.0), ((14.5, 14.5, 8.5), (-0.2, 0.0, 2.1), 36.0))
@@ -38,36 +40,42 @@ HOUSE_VIEWS = (((-13.5, -15.5, 8.5), (0.2, 0.3, 2.1), 36.0), ((14.5, 14.5, 8.5),
 def main():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.experiments", description=__doc__.partition("\n")[0])
     parser.add_argument("folder", metavar="FOLDER", type=Path)
-    folder = parser.parse_args().folder
+    parser.add_argument(
+        "--method", type=int, choices=(1, 2), help="one of the two alone; finding seeds takes the longer"
+    )
+    arguments = parser.parse_args()
+    folder, chosen = arguments.folder, arguments.method
     folder.mkdir(parents=True, exist_ok=True)
     found = cases.load(folder)
     groups = {}
     for case in found:
         groups.setdefault((case.scene, case.variant), []).append(case)
     results = {}
-    for method, seeds_of in METHODS.items():
+    methods = {name: seeds_of for name, seeds_of in METHODS.items() if chosen is None or name.endswith(str(chosen))}
+    for method, seeds_of in methods.items():
         for key, group in groups.items():
             seeds = seeds_of(group)
-            results[method, key] = [
-                colorize(case.scan, own, SETTINGS["Paper"]) for case, own in zip(group, seeds, strict=True)
-            ]
-    print_tables(groups, results)
+            for preset in COMPARED:
+                results[method, preset, key] = [
+                    colorize(case.scan, own, SETTINGS[preset]) for case, own in zip(group, seeds, strict=True)
+                ]
+    print_tables(groups, results, methods)
     renderer = meshes.Renderer(folder)
-    draw_flat(folder, groups, results)
-    draw_meshes(folder, groups, results, renderer)
+    draw_flat(folder, groups, results, methods)
+    draw_meshes(folder, groups, results, methods, renderer)
     sys.stdout.flush()
     renderer.end(0)
 
 
-def print_tables(groups, results):
+def print_tables(groups, results, methods):
     """All figures of docs/experiments.md."""
-    for method in METHODS:
+    for method in methods:
         rows = [
-            tables.method_row(case, result)
+            tables.method_row(case, *colored)
             for key, group in groups.items()
-            for case, result in zip(group, results[method, key], strict=True)
+            for case, *colored in zip(group, *(results[method, preset, key] for preset in COMPARED), strict=True)
         ]
-        print(f"\n{method}, CIEDE2000 of color alone\n\n{tables.table(tables.METHOD_TITLES, rows)}", flush=True)
+        print(f"\n{method}, mean CIEDE2000\n\n{tables.table(tables.METHOD_TITLES, rows)}", flush=True)
     hand = [
         (case, own)
         for key, group in groups.items()
@@ -85,7 +93,7 @@ def print_tables(groups, results):
     print(f"\nPresets, colors of the photos / true\n\n{tables.table(['scan', *SETTINGS], rows)}", flush=True)
 
 
-def draw_flat(folder, groups, results):
+def draw_flat(folder, groups, results, methods):
     """Inputs, seeds and colorized images."""
     for (scene, variant), group in groups.items():
         name, kind = scene.replace(" ", ""), f"_{variant}".replace(" ", "_") if variant else ""
@@ -95,11 +103,15 @@ def draw_flat(folder, groups, results):
             save(folder, f"{name}_input", [[scans[0][0], scans[1][0], *photos]])
         elif variant != cases.HOUSE_PHOTOS["one_photo"]:
             save(folder, f"{name}_input", [*scans, photos])
-        for method in METHODS:
-            colored = results[method, (scene, variant)]
-            seeds = [pictures.seeds_image(case.scan, own.seeds) for case, own in zip(group, colored, strict=True)]
-            images, truths = [result.rgb for result in colored], [case.truth for case in group]
-            rows = [[seeds[0], images[0], truths[0]]] if len(group) == 1 else [seeds, images, truths]
+        for method in methods:
+            colored = [results[method, preset, (scene, variant)] for preset in COMPARED]
+            seeds = [pictures.seeds_image(case.scan, own.seeds) for case, own in zip(group, colored[0], strict=True)]
+            images = [[result.rgb for result in of_preset] for of_preset in colored]
+            rows = [seeds, *images, [case.truth for case in group]]
+            if len(group) == 1:
+                # Two by two.
+                first, second, third, fourth = (row[0] for row in rows)
+                rows = [[first, second], [third, fourth]]
             save(folder, f"{name}{kind}_{slug(method)}", rows)
         if len(group) == 1:
             (case,), (own,) = group, picked_by_hand(group)
@@ -107,15 +119,16 @@ def draw_flat(folder, groups, results):
             save(folder, f"{name}_range", [compared])
 
 
-def draw_meshes(folder, groups, results, renderer):
-    """The gray mesh beside those that every method colored; of scene 3 from two sides."""
+def draw_meshes(folder, groups, results, methods, renderer):
+    """The gray mesh, one that Paper colored and all that Natural did; of scene 3 from two sides."""
     scenes = {}
     for (scene, _variant), group in groups.items():
         scenes.setdefault(scene, [case.scan for case in group])
     for scene, scans in scenes.items():
-        colors = [
-            [result.rgb for result in results[method, key]] for method in METHODS for key in groups if key[0] == scene
-        ]
+        own = [key for key in groups if key[0] == scene]
+        first = next(iter(methods))
+        shown = [(first, "Paper", own[-1]), *((method, "Natural", key) for method in methods for key in own)]
+        colors = [[result.rgb for result in results[name]] for name in shown]
         rows = [
             [renderer.picture(scans, view=view), *(renderer.picture(scans, rgb, view) for rgb in colors)]
             for view in (HOUSE_VIEWS if len(scans) > 1 else (None,))

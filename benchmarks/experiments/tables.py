@@ -15,22 +15,19 @@ def table(titles, rows):
     return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)
 
 
-def method_row(case, colorization):
-    """How far one result is from the truth, beside what gray would give."""
-    alone, as_is = _figures(case, colorization.rgb)
-    gray = np.repeat(colorization.rgb.mean(axis=-1, keepdims=True), 3, axis=-1).astype(np.uint8)
-    return [
-        _name(case),
-        len(colorization.seeds),
-        f"{_figures(case, gray)[0]['ciede2000_mean']:.2f}",
-        f"{alone['ciede2000_mean']:.2f}",
-        f"{alone['ciede2000_p95']:.1f}",
-        f"{alone['chrominance_psnr_db']:.1f}",
-        f"{as_is['ciede2000_mean']:.1f}",
-    ]
+def method_row(case, paper, natural):
+    """How far the results of the two presets are from the truth."""
+    figures = [evaluate(result.rgb, case.truth, case.scan.valid) for result in (paper, natural)]
+    cells = [f"{found[part]['ciede2000_mean']:.1f}" for part in ("as_is", "after_gain") for found in figures]
+    cells += [f"{found['structural_similarity']:.2f}" for found in figures]
+    cells += [f"{found['color_alone']['ciede2000_mean']:.2f}" for found in figures]
+    return [_name(case), len(paper.seeds), *cells]
 
 
-METHOD_TITLES = ["scan", "seeds", "gray", "mean", "95 %", "PSNR, dB", "as is, mean"]
+METHOD_TITLES = [
+    *("scan", "seeds", "Paper", "Natural", "Paper, exposed alike", "Natural, exposed alike"),
+    *("similarity, Paper", "similarity, Natural", "color alone, Paper", "color alone, Natural"),
+]
 
 
 def settings_row(case, seedings, settings):
@@ -38,7 +35,8 @@ def settings_row(case, seedings, settings):
     cells = []
     for chosen in settings:
         results = [colorize(case.scan, seeds, chosen).rgb for seeds in seedings]
-        cells.append(" / ".join(f"{_figures(case, rgb)[0]['ciede2000_mean']:.2f}" for rgb in results))
+        figures = [evaluate(rgb, case.truth, case.scan.valid)["color_alone"] for rgb in results]
+        cells.append(" / ".join(f"{found['ciede2000_mean']:.2f}" for found in figures))
     return [_name(case), *cells]
 
 
@@ -72,11 +70,6 @@ def near_jumps(scan):
         jump[first] |= step
         jump[second] |= step
     return cv2.dilate(jump.astype(np.uint8), np.ones((2 * _NEAR_PX + 1,) * 2)) > 0
-
-
-def _figures(case, rgb):
-    figures = evaluate(rgb, case.truth, case.scan.valid)
-    return figures["color_alone"], figures["as_is"]
 
 
 def _name(case):

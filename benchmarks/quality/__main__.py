@@ -17,6 +17,7 @@ def main():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.quality", description=__doc__.partition("\n")[0])
     parser.add_argument("scans", metavar="SCAN", nargs="*", help=f"by default all: {', '.join(NAMES)}")
     parser.add_argument("--plots", metavar="FOLDER", type=Path, help="draw error against number of seeds, as PNG")
+    parser.add_argument("--kept", metavar="FOLDER", type=Path, help="keep figures there, and go on from those")
     arguments = parser.parse_args()
     if unknown := set(arguments.scans) - set(NAMES):
         parser.error(f"no scan {', '.join(sorted(unknown))}; there are {', '.join(NAMES)}")
@@ -24,13 +25,18 @@ def main():
     for name in arguments.scans or NAMES:
         for count in COUNTS:
             print(f"{name}, {count} seeds", file=sys.stderr, flush=True)
-            results.append(measure(name, count))
-    for part, title in (("color_alone", "with the true luminance"), ("as_is", "as the colors come")):
+            results.append(measure(name, count, arguments.kept))
+    print(f"\nNatural, as the colors come\n\n{tables.natural_summary(results)}")
+    for title, table in (
+        ("Mean CIEDE2000 as the colors come / structural similarity of the luminance", tables.as_is_table),
+        ("Mean CIEDE2000 after one exposure gain", tables.exposed_table),
+        ("With the true luminance: mean CIEDE2000 / chrominance PSNR in dB", tables.alone_table),
+    ):
         for count in COUNTS:
-            print(f"\nMean CIEDE2000 / chrominance PSNR in dB, {title}, about {count} seeds\n")
-            print(tables.table(results, count, part))
+            print(f"\n{title}, about {count} seeds\n\n{table(results, count)}")
     print(f"\nEnhanced against Levin's and Paper, with the true luminance\n\n{tables.summary(results)}")
     print(f"\nConfidence and error\n\n{tables.confidence_table(results)}")
+    print(f"\nMean CIEDE2000 by confidence\n\n{tables.calibration_table(results)}")
     print(f"\nTime\n\n{tables.time_table(results)}")
     if arguments.plots:
         draw(results, arguments.plots)

@@ -1,7 +1,8 @@
-"""What each part of "Enhanced" gains, and what else was tried: python -m benchmarks.quality.ablation [SCAN ...]
+"""What each part of "Natural" gains, and what else was tried: python -m benchmarks.quality.ablation [SCAN ...]
 
-Every variant differs from "Enhanced" in one respect. Printed is the mean over the scans and numbers of seeds of its
-mean CIEDE2000 (with the true luminance) as a ratio to that of "Enhanced": above 1 is worse. Takes some ten minutes.
+Every variant differs from "Natural" in one respect. Printed is the mean over the scans and numbers of seeds of its mean
+CIEDE2000 as a ratio to that of "Natural", as the colors come / with the true luminance: above 1 is worse. Takes some
+fifteen minutes.
 """
 
 import argparse
@@ -10,8 +11,9 @@ import sys
 
 import numpy as np
 
-from reflcolor_addon.color import colorspaces, kriging
+from reflcolor_addon.color import colorspaces, kriging, mixing
 from reflcolor_addon.color.evaluation import evaluate
+from reflcolor_addon.color.luminance import channels_of, lightness, seed_values
 from reflcolor_addon.geodesic.blending import left_out
 from reflcolor_addon.geodesic.engines import engine_for
 from reflcolor_addon.geodesic.graph import PixelGraph
@@ -21,30 +23,36 @@ from reflcolor_addon.scan.normals import surface_normals
 from reflcolor_addon.settings import Settings
 
 from . import peers
-from .scenes import CHOSEN_ON, COUNTS, NAMES, OTHERS, SIMULATED, load, perfect_seeds
+from .scenes import CHOSEN_ON, COUNTS, NAMES, OTHERS, PAIRS, SIMULATED, load, perfect_seeds
 
-_ENHANCED = Settings.preset("Enhanced")
+_NATURAL = Settings.preset("Natural")
+_PARTS = channels_of(_NATURAL)
 # A step's constant is for a scan of this many pixels and shrinks with the side, so that crossing a scan costs the same.
 _STEP_PIXELS = 270**2
+# Of a detail's slope that the seeds tell: what draws it to 0, in seeds.
+_SLOPE_SEEDS = 10
 
 
 class Case:
-    """One scan with seeds, and the two estimates that "Enhanced" mixes, each in variants."""
+    """One scan with seeds, and the two estimates that "Natural" mixes, each in variants."""
 
     def __init__(self, scan, known, seeds):
         self.scan, self.known = scan, known
         self.pixels = np.ravel_multi_index((seeds.rows, seeds.cols), scan.shape)
-        self.colors = colorspaces.chrominance(seeds.rgb, "ycbcr").astype(np.float32)
+        self.colors = seed_values(seeds.rgb, _NATURAL)
         self.seeds = seeds
         self.luminance, _ = normalize(scan.reflectance, scan.valid)
         self.range_image, _ = normalize(scan.range, scan.valid)
-        self.smoothed = self.smooth(_ENHANCED.smoothing)
+        self.smoothed = self.smooth(_NATURAL.smoothing)
 
     def smooth(self, sigma):
         return smooth(self.luminance, self.scan.valid, sigma, wrap=self.scan.full_turn)
 
-    def paths(self, *, luminance=None, beta=1.0, constant=0.0, alpha=_ENHANCED.alpha, nearest=_ENHANCED.nearest):
-        """Return (H, W, 2) chrominance by eq. 1, where it reaches, and the residuals of left-out seeds."""
+    def paths(
+        self, *, luminance=None, beta=1.0, constant=0.0, alpha=_NATURAL.alpha, nearest=_NATURAL.nearest, colors=None
+    ):
+        """Return (H, W, C) values by eq. 1, where it reaches, and the residuals of left-out seeds."""
+        colors = self.colors if colors is None else colors
         graph = PixelGraph(
             luminance=self.smoothed if luminance is None else luminance,
             range_image=self.range_image,
@@ -54,91 +62,151 @@ class Case:
             step_cost=constant * float(np.sqrt(_STEP_PIXELS / self.scan.valid.sum())),
         )
         engine = engine_for(graph)
-        count = min(nearest, self.pixels.size)
-        mean, _, near = engine.nearest(self.pixels, self.colors, alpha, count, engine.control())
-        self.reached = np.isfinite(mean.least)
-        return np.moveaxis(mean.values, 0, -1), self.colors - left_out(*near, self.colors, alpha)
+        found = engine.nearest(self.pixels, min(nearest, self.pixels.size), engine.control())
+        mean, _ = found.blend(colors, alpha)
+        near = found.at(self.pixels)
+        self.least, self.reached, self.apart = mean.least, np.isfinite(mean.least), mixing.nearest_other(*near)
+        return np.moveaxis(mean.values, 0, -1), colors - left_out(*near, colors, alpha)
 
-    def kriging(self, *, luminance=None, without=(), nuggets=kriging.NUGGETS, outliers=True):
-        """Return (H, W, 2) chrominance by kriging, and the residuals of left-out seeds."""
+    def kriging(self, *, luminance=None, without=(), nuggets=kriging.NUGGETS, outliers=True, colors=None):
+        """Return (H, W, C) values by kriging, and the residuals of left-out seeds."""
+        colors = self.colors if colors is None else colors
         features = kriging.pixel_features(self.scan, self.smoothed if luminance is None else luminance)
+        self.directions = features[self.pixels, :3]
         features[:, [i for part in without for i in range(*_FEATURES[part])]] = 0
         kept = kriging.NUGGETS, kriging._OUTLIER_GAIN
         kriging.NUGGETS, kriging._OUTLIER_GAIN = nuggets, kept[1] if outliers else 0.0
         try:
-            model = kriging.Kriging(features[self.pixels], self.colors)
+            model = kriging.Kriging(features[self.pixels], colors, _PARTS[: colors.shape[1] - 1])
         finally:
             kriging.NUGGETS, kriging._OUTLIER_GAIN = kept
         estimate = np.concatenate([model.estimate(features[chunk]) for chunk in model.chunks(len(features))])
-        return estimate.reshape(*self.scan.shape, 2), model.residuals
+        return estimate.reshape(*self.scan.shape, -1), model.residuals
 
-    def mix(self, paths, krige, *, share=None):
-        """Return the chrominance mixed of both; by default with the share that the seeds tell."""
-        if share is None:
-            share = kriging.share(krige[1], paths[1], _ENHANCED.kriging)
-        return (1 - share) * paths[0] + share * krige[0]
+    def mix(self, paths, krige, *, share=None, even=False, told_apart=True):
+        """Return the values mixed of both, and the residuals; by default with the share that the seeds tell.
 
-    def error(self, chroma):
-        """Return the mean CIEDE2000 with the true luminance."""
-        rgb = colorspaces.merge(self.luminance, chroma, "ycbcr")
+        ``share`` is one for all pixels; with ``even`` the seeds never pass for a person's; without ``told_apart``
+        luminance and chrominance get the same share.
+        """
+        mixed, rest = np.empty_like(paths[0]), np.empty_like(paths[1])
+        picked = 0.0 if even else mixing.picked_by_a_person(self.directions, self.apart, self.least[self.scan.valid])
+        for part in _PARTS:
+            asked = part if told_apart else slice(None)
+            if share is not None:
+                of_pixels, of_seeds = share, share
+            else:
+                rule = mixing.mixture(krige[1][:, asked], paths[1][:, asked], self.apart, _NATURAL.kriging, picked)
+                of_pixels, of_seeds = rule.share(self.least)[..., None], rule.share(self.apart)[:, None]
+            mixed[..., part] = (1 - of_pixels) * paths[0][..., part] + of_pixels * krige[0][..., part]
+            rest[:, part] = (1 - of_seeds) * paths[1][:, part] + of_seeds * krige[1][:, part]
+        return mixed, rest
+
+    def errors(self, values, light=None):
+        """Return the mean CIEDE2000 as the colors come, and with the true luminance."""
+        if light is None:
+            light = lightness(self.luminance, values, self.reached, _NATURAL)
+        rgb = colorspaces.merge(light, values[..., :2], "ycbcr")
         rgb[~self.reached] = np.rint(self.luminance[~self.reached])[:, None]
-        return evaluate(rgb, self.scan.color, self.known)["color_alone"]["ciede2000_mean"]
+        found = evaluate(rgb, self.scan.color, self.known)
+        return tuple(found[part]["ciede2000_mean"] for part in ("as_is", "color_alone"))
 
 
 _FEATURES = {"direction": (0, 3), "luminance": (3, 4), "log range": (4, 5), "normal": (5, 8)}
 
 
 def variants(case):
-    """Yield the name and the chrominance of every variant, "Enhanced" first."""
+    """Yield the name and the errors of every variant, "Natural" first."""
     paths, krige = case.paths(), case.kriging()
-    both = case.mix(paths, krige)
-    yield "Enhanced", both
-    yield "paths alone (eq. 1)", paths[0]
-    yield "kriging alone", krige[0]
+    least, apart = case.least, case.apart
+    both, rest = case.mix(paths, krige)
+    yield "Natural", case.errors(both)
+    yield "luminance of the reflectance (Enhanced)", case.errors(both, case.luminance)
+    yield "half of either luminance", case.errors(both, (case.luminance + _light(case, both)) / 2)
+    yield "luminance by one gain and offset of the reflectance", case.errors(both, _fitted(case))
+    yield "luminance blended as it is, not its root", case.errors(*_other_scale(case, both, lambda y: y, lambda y: y))
+    yield (
+        "luminance blended as its logarithm",
+        case.errors(*_other_scale(case, both, lambda y: 80 * np.log(y + 32), lambda z: np.exp(z / 80) - 32)),
+    )
+    for name, local in (("one slope", False), ("a slope for each place", True)):
+        yield f"detail of the reflectance added, {name}", case.errors(_with_detail(case, both, rest, local=local))
+    yield "one share for chrominance and luminance", case.errors(case.mix(paths, krige, told_apart=False)[0])
+    yield "paths alone (eq. 1)", case.errors(paths[0])
+    yield "kriging alone", case.errors(krige[0])
     for share in (0.4, 0.6, 0.8):
-        yield f"share of kriging fixed at {share}", case.mix(paths, krige, share=share)
+        yield f"share of kriging {share} at every pixel", case.errors(case.mix(paths, krige, share=share)[0])
     for sigma in (0.0, 2.0):
         smoothed = case.smooth(sigma)
-        yield (
-            f"smoothing {sigma:g} instead of 1 pixel",
-            case.mix(case.paths(luminance=smoothed), case.kriging(luminance=smoothed)),
-        )
-    for name, smoothed in (("bilateral", _bilateral(case)), ("median of 5 x 5", _median(case))):
-        yield f"{name} instead of Gaussian", case.mix(case.paths(luminance=smoothed), case.kriging(luminance=smoothed))
+        changed = case.mix(case.paths(luminance=smoothed), case.kriging(luminance=smoothed))
+        yield f"smoothing {sigma:g} instead of 1 pixel", case.errors(changed[0])
     for alpha in (2.0, 4.0, 6.0):
-        yield f"alpha {alpha:g} instead of 3", case.mix(case.paths(alpha=alpha), krige)
-    for nearest in (4, 16, 64):
-        yield f"{nearest} nearest instead of 8", case.mix(case.paths(nearest=nearest), krige)
-    for beta in (0.0, 0.1, 10.0):
-        yield f"beta {beta:g} instead of 1", case.mix(case.paths(beta=beta), krige)
-    for constant in (0.5, 2.0, 8.0):
-        yield f"constant {constant:g} in every step", case.mix(case.paths(constant=constant), krige)
+        yield f"alpha {alpha:g} instead of 3", case.errors(case.mix(case.paths(alpha=alpha), krige)[0])
+    for nearest in (4, 16):
+        yield f"{nearest} nearest instead of 8", case.errors(case.mix(case.paths(nearest=nearest), krige)[0])
+    for beta in (0.0, 10.0):
+        yield f"beta {beta:g} instead of 1", case.errors(case.mix(case.paths(beta=beta), krige)[0])
+    yield "constant 2 in every step", case.errors(case.mix(case.paths(constant=2.0), krige)[0])
+    case.least, case.apart = least, apart
     for part in _FEATURES:
-        yield f"kriging without {part}", case.mix(paths, case.kriging(without=(part,)))
-    yield "kriging with one nugget, 0.04", case.mix(paths, case.kriging(nuggets=(0.04,)))
-    yield "kriging without nuggets for outliers", case.mix(paths, case.kriging(outliers=False))
+        yield f"kriging without {part}", case.errors(case.mix(paths, case.kriging(without=(part,)))[0])
+    yield "kriging with one nugget, 0.04", case.errors(case.mix(paths, case.kriging(nuggets=(0.04,)))[0])
+    yield "kriging without nuggets for outliers", case.errors(case.mix(paths, case.kriging(outliers=False))[0])
+    corrected = _corrected(case)
+    changed = case.mix(case.paths(luminance=corrected), case.kriging(luminance=corrected))
+    yield "reflectance corrected for incidence and range", case.errors(changed[0])
     yield (
-        "reflectance corrected for incidence and range",
-        case.mix(case.paths(luminance=_corrected(case)), case.kriging(luminance=_corrected(case))),
+        "a third of Levin's optimization",
+        case.errors((2 * both + peers.levin(case.scan, case.seeds, values=case.colors)) / 3),
     )
-    yield "guided filter on the result", _filtered(case, both)
-    yield "a third of Levin's optimization", (2 * both + peers.levin(case.scan, case.seeds)) / 3
 
 
-def _filled(case):
-    return np.where(case.scan.valid, case.luminance, case.smooth(4.0)).astype(np.float32)
+def _light(case, values):
+    return lightness(case.luminance, values, case.reached, _NATURAL)
 
 
-def _bilateral(case):
-    import cv2
+def _fitted(case):
+    """The reflectance, made as light as the seeds by least squares."""
+    wanted = peers.whole_colors(case.seeds)[:, 0]
+    own = case.luminance.ravel()[case.pixels]
+    fit, *_ = np.linalg.lstsq(np.column_stack([np.ones(len(own)), own]), wanted, rcond=None)
+    return np.clip(fit[0] + fit[1] * case.luminance, 0, 255)
 
-    return np.where(case.scan.valid, cv2.bilateralFilter(_filled(case), 0, 30, 2), 0)
+
+def _other_scale(case, values, scale, back):
+    """The same values, and a luminance that was blended on another scale."""
+    colors = np.column_stack([case.colors[:, :2], scale(peers.whole_colors(case.seeds)[:, 0])]).astype(np.float32)
+    mixed, _ = case.mix(case.paths(colors=colors), case.kriging(colors=colors))
+    return values, np.clip(back(mixed[..., 2]), 0, 255)
 
 
-def _median(case):
-    import cv2
+def _with_detail(case, values, rest, *, local):
+    """The luminance plus the reflectance's detail, with the slope that left-out seeds tell.
 
-    return np.where(case.scan.valid, cv2.medianBlur(_filled(case), 5), 0)
+    Detail is what the reflectance has beyond its own estimate from the seeds. A local slope is that of the seeds that
+    are alike, and 0 where it did not help them.
+    """
+    own = np.column_stack([case.colors[:, :2], case.luminance.ravel()[case.pixels]]).astype(np.float32)
+    smooth_part, own_rest = case.mix(case.paths(colors=own), case.kriging(colors=own))
+    detail, off, by = case.luminance - smooth_part[..., 2], rest[:, 2], own_rest[:, 2]
+    drawn = _SLOPE_SEEDS * np.mean(by**2)
+    if not local:
+        slope = (off @ by) / (by @ by + drawn)
+    else:
+        features = kriging.pixel_features(case.scan, case.smoothed)
+        alike = kriging._covariance(features[case.pixels].astype(float), features[case.pixels].astype(float))
+        np.fill_diagonal(alike, 0)
+        told = (alike @ (off * by)) / (alike @ by**2 + drawn)
+        helped = np.abs(off) - np.abs(off - told * by)
+        slope = np.empty(len(features))
+        for start in range(0, len(features), 1 << 14):
+            weights = kriging._covariance(features[start : start + (1 << 14)].astype(float), features[case.pixels])
+            found = (weights @ (off * by)) / (weights @ by**2 + drawn)
+            slope[start : start + (1 << 14)] = np.where(weights @ helped > 0, found, 0)
+        slope = slope.reshape(case.scan.shape)
+    changed = values.copy()
+    changed[..., 2] += slope * detail
+    return changed
 
 
 def _corrected(case):
@@ -154,24 +222,6 @@ def _corrected(case):
     return normalize(rest, valid)[0]
 
 
-def _filtered(case, chroma, radius=4, variance=1e-3):
-    import cv2
-
-    guide, weight, size = case.luminance.astype(np.float64) / 255, case.scan.valid.astype(float), (2 * radius + 1,) * 2
-    total = np.maximum(cv2.blur(weight, size), 1e-9)
-
-    def mean(image):
-        return cv2.blur(image * weight, size) / total
-
-    middle = mean(guide)
-    result = np.empty_like(chroma)
-    for channel in range(2):
-        values = np.ascontiguousarray(chroma[..., channel], np.float64)
-        slope = (mean(guide * values) - middle * mean(values)) / (mean(guide**2) - middle**2 + variance)
-        result[..., channel] = mean(slope) * guide + mean(mean(values) - slope * middle)
-    return result
-
-
 def main():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.ablation", description=__doc__)
     parser.add_argument("scans", metavar="SCAN", nargs="*", help=f"by default all: {', '.join(NAMES)}")
@@ -182,15 +232,16 @@ def main():
             print(f"{name}, {count} seeds", file=sys.stderr, flush=True)
             scan, known = load(name)
             case = Case(scan, known, perfect_seeds(scan, known, count))
-            for variant, chroma in variants(case):
-                errors.setdefault(variant, {})[name, count] = case.error(chroma)
-    groups = {"chosen on": CHOSEN_ON, "others": OTHERS, "simulated": tuple(SIMULATED)}
-    print(f"| variant | {' | '.join(groups)} |\n|---|---|---|---|")
+            for variant, found in variants(case):
+                errors.setdefault(variant, {})[name, count] = found
+    groups = {"chosen on": CHOSEN_ON, "others": OTHERS, "spinning lidars": PAIRS, "simulated": tuple(SIMULATED)}
+    print(f"| variant | {' | '.join(groups)} |\n|---|" + "---|" * len(groups))
     for variant, found in errors.items():
         cells = []
         for group in groups.values():
-            ratios = [error / errors["Enhanced"][place] for place, error in found.items() if place[0] in group]
-            cells.append(f"{statistics.fmean(ratios):.3f}" if ratios else "")
+            places = [place for place in found if place[0] in group]
+            ratios = ([found[place][part] / errors["Natural"][place][part] for place in places] for part in (0, 1))
+            cells.append(" / ".join(f"{statistics.fmean(part):.3f}" for part in ratios) if places else "")
         print(f"| {variant} | {' | '.join(cells)} |")
 
 

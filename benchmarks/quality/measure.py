@@ -1,72 +1,117 @@
 """Every method on every scan."""
 
+import json
 import time
 
 import numpy as np
 
 from reflcolor_addon import Settings, colorize
 from reflcolor_addon.color.colorspaces import merge
-from reflcolor_addon.color.evaluation import error_map, evaluate
+from reflcolor_addon.color.evaluation import error_map, evaluate, with_luminance_of
 from reflcolor_addon.scan.normalization import normalize
 
 from . import peers
 from .scenes import load, perfect_seeds
 
+# Those that give whole colors, then those whose luminance is the reflectance's.
+WHOLE = {"constant": peers.constant, "linear": peers.linear, "Levin, three channels": peers.levin_whole}
 PEERS = {
     "gray": peers.gray,
     "mean color": peers.mean_color,
     "nearest in image": peers.nearest_in_image,
     "guided filter": peers.guided_filter,
-    "Levin": peers.levin,
 }
-OURS = {"Yatziv": Settings(beta=0.0), "Paper": Settings.preset("Paper"), "Enhanced": Settings.preset("Enhanced")}
-METHODS = ("gray", "mean color", "nearest in image", "guided filter", "Yatziv", "Paper", "Levin", "Enhanced")
+LEVIN = "Levin"
+OURS = {
+    "Yatziv": Settings(beta=0.0),
+    "Paper": Settings.preset("Paper"),
+    "Enhanced": Settings.preset("Enhanced"),
+    "Natural": Settings.preset("Natural"),
+}
+# What a table of colors as they come shows, and one of color alone.
+AS_IS = ("gray", "Paper", "Enhanced", *WHOLE, "Natural")
+ALONE = (*PEERS, "Yatziv", "Paper", LEVIN, "Enhanced", "Natural")
+CALIBRATION = 10
+_ROUNDS, _ROUNDS_S = 5, 8
 
 
-def measure(name, count):
+def measure(name, count, kept=None):
     """Return the figures of all methods on one scan with about so many seeds.
+
+    Parameters
+    ----------
+    name : str
+    count : int
+    kept : Path, optional
+        Folder that figures are kept in; what is there is not measured again.
 
     Returns
     -------
     dict
         ``scan``, ``seeds``, ``count`` and ``figures``: by method, what ``evaluate`` returns and, for those of this
-        project, ``seconds`` and ``confidence`` (rank correlation of confidence and error; mean error of the more
-        confident half and of the other).
+        project, ``seconds`` and ``confidence`` (see `_confidence`).
     """
+    path = kept and kept / f"{name}-{count}.json"
+    if path and path.exists():
+        return json.loads(path.read_text(encoding="utf-8"))
+    found = _measured(name, count)
+    if path:
+        kept.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(found), encoding="utf-8")
+    return found
+
+
+def _measured(name, count):
     scan, known = load(name)
     seeds = perfect_seeds(scan, known, count)
     luminance, _ = normalize(scan.reflectance, scan.valid)
     figures = {}
+    for method, function in WHOLE.items():
+        values = function(scan, seeds)
+        figures[method] = evaluate(merge(values[..., 0], values[..., 1:], "ycbcr"), scan.color, known)
+        if function is peers.levin_whole:
+            # Each channel is solved by itself.
+            figures[LEVIN] = evaluate(merge(luminance, values[..., 1:], "ycbcr"), scan.color, known)
     for method, function in PEERS.items():
-        rgb = merge(luminance, function(scan, seeds), "ycbcr")
-        figures[method] = evaluate(rgb, scan.color, known)
+        figures[method] = evaluate(merge(luminance, function(scan, seeds), "ycbcr"), scan.color, known)
+    results, seconds = _timed(scan, seeds)
     for method, settings in OURS.items():
-        result, seconds = _timed(scan, seeds, settings)
-        figures[method] = evaluate(result.rgb, scan.color, known) | {
-            "seconds": seconds,
-            "confidence": _confidence(result, scan, known),
-        }
+        result = results[method]
+        figures[method] = evaluate(result.rgb, scan.color, known) | {"seconds": seconds[method]}
+        shown = result.rgb if settings.light else with_luminance_of(result.rgb, scan.color)
+        figures[method]["confidence"] = _confidence(result.confidence, shown, scan, known)
     return {"scan": name, "seeds": len(seeds), "count": count, "figures": figures}
 
 
-def _timed(scan, seeds, settings):
-    """Return the colorization and the seconds it takes: the least of up to five runs, for other work disturbs."""
-    seconds = []
-    while not seconds or (len(seconds) < 5 and sum(seconds) < 3):
-        start = time.perf_counter()
-        result = colorize(scan, seeds, settings)
-        seconds.append(time.perf_counter() - start)
-    return result, min(seconds)
+def _timed(scan, seeds):
+    """Return the colorizations by preset and the seconds that each takes: the least of up to five runs by turns.
+
+    Other work on the machine disturbs; by turns it disturbs all alike.
+    """
+    results, seconds = {}, {method: [] for method in OURS}
+    rounds = 0
+    while rounds == 0 or (rounds < _ROUNDS and sum(map(sum, seconds.values())) < _ROUNDS_S):
+        for method, settings in OURS.items():
+            start = time.perf_counter()
+            results[method] = colorize(scan, seeds, settings)
+            seconds[method].append(time.perf_counter() - start)
+        rounds += 1
+    return results, {method: min(taken) for method, taken in seconds.items()}
 
 
-def _confidence(result, scan, known):
+def _confidence(confidence, rgb, scan, known):
+    """Rank correlation of confidence and error, the mean error of the more confident half and of the other, and the
+    mean error where the confidence is 0 to 0.1, 0.1 to 0.2 and so on, None where it nowhere is."""
     from scipy.stats import spearmanr
 
-    errors, confidence = error_map(result.rgb, scan.color, known)[known], result.confidence[known]
+    errors, confidence = error_map(rgb, scan.color, known)[known], confidence[known]
     order = np.argsort(-confidence, kind="stable")
     half = order.size // 2
+    tenth = np.minimum((confidence * CALIBRATION).astype(int), CALIBRATION - 1)
     return {
         "rank_correlation": float(spearmanr(confidence, errors)[0]),
         "upper_half": float(errors[order[:half]].mean()),
         "lower_half": float(errors[order[half:]].mean()),
+        "by_tenth": [float(errors[tenth == i].mean()) if (tenth == i).any() else None for i in range(CALIBRATION)],
+        "pixels_by_tenth": np.bincount(tenth, minlength=CALIBRATION).tolist(),
     }

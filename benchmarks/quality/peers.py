@@ -1,10 +1,14 @@
-"""Methods to compare with: each takes a scan and seeds, and returns (H, W, 2) chrominance (Cb, Cr)."""
+"""Methods to compare with: each takes a scan and seeds.
+
+Some return (H, W, 2) chrominance (Cb, Cr), to which the luminance is that of the reflectance; those that give whole
+colors return (H, W, 3): Y, Cb, Cr.
+"""
 
 import warnings
 
 import numpy as np
 
-from reflcolor_addon.color.colorspaces import chrominance
+from reflcolor_addon.color.colorspaces import LUMA, chrominance
 from reflcolor_addon.scan.normalization import normalize
 
 _NEIGHBORS = tuple((down, right) for down in (-1, 0, 1) for right in (-1, 0, 1) if down or right)
@@ -20,6 +24,24 @@ def gray(scan, seeds):
 def mean_color(scan, seeds):
     """The mean of the seeds everywhere."""
     return np.broadcast_to(_colors(seeds).mean(axis=0), (*scan.shape, 2))
+
+
+def constant(scan, seeds):
+    """The mean of the seeds everywhere, luminance and all."""
+    return np.broadcast_to(whole_colors(seeds).mean(axis=0), (*scan.shape, 3))
+
+
+def linear(scan, seeds):
+    """Each channel linear in the reflectance, fitted to the seeds."""
+    luminance, _ = normalize(scan.reflectance, scan.valid)
+    own = luminance[seeds.rows, seeds.cols]
+    fit, *_ = np.linalg.lstsq(np.column_stack([np.ones(len(seeds)), own]), whole_colors(seeds), rcond=None)
+    return fit[0] + fit[1] * luminance[..., None]
+
+
+def levin_whole(scan, seeds):
+    """Levin's optimization on all three channels."""
+    return levin(scan, seeds, values=whole_colors(seeds))
 
 
 def nearest_in_image(scan, seeds):
@@ -76,11 +98,11 @@ def solve_symmetrically(matrix, known):
     return splu(matrix, **options).solve(known)
 
 
-def levin(scan, seeds, solve=solve_symmetrically):
+def levin(scan, seeds, solve=solve_symmetrically, values=None):
     """Colorization using optimization (Levin, Lischinski and Weiss 2004), by a sparse direct solver.
 
     Every pixel without a seed is the weighted mean of its 8 neighbors, with weights exp(-(Y_p - Y_q)^2 / 2 var) of the
-    variance in the 3 x 3 window, bounded below as in the authors' program.
+    variance in the 3 x 3 window, bounded below as in the authors' program. By default the chrominance is spread.
     """
     from scipy.sparse import csc_array
 
@@ -100,16 +122,23 @@ def levin(scan, seeds, solve=solve_symmetrically):
     is_seed[seeds.rows, seeds.cols] = True
     free = scan.valid & ~is_seed & (total > 0)
     index = np.arange(height * width).reshape(height, width)
-    rows, cols, values = [index.ravel()], [index.ravel()], [np.full(index.size, 1 + 1e-10)]
+    rows, cols, entries = [index.ravel()], [index.ravel()], [np.full(index.size, 1 + 1e-10)]
     for (down, right), weight in zip(_NEIGHBORS, affinity, strict=True):
         at = np.nonzero(free & (weight > 0))
         rows.append(index[at])
         cols.append(index[at[0] + down, at[1] + right])
-        values.append(-weight[at] / total[at])
-    matrix = csc_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(cols))), (index.size, index.size))
-    known = np.zeros((height * width, 2))
-    known[index[seeds.rows, seeds.cols]] = _colors(seeds)
-    return solve(matrix, known).reshape(height, width, 2)
+        entries.append(-weight[at] / total[at])
+    places = np.concatenate(rows), np.concatenate(cols)
+    matrix = csc_array((np.concatenate(entries), places), (index.size, index.size))
+    values = _colors(seeds) if values is None else values
+    known = np.zeros((height * width, values.shape[1]))
+    known[index[seeds.rows, seeds.cols]] = values
+    return solve(matrix, known).reshape(height, width, -1)
+
+
+def whole_colors(seeds):
+    """(S, 3): Y, Cb, Cr."""
+    return np.column_stack([seeds.rgb @ LUMA, _colors(seeds)])
 
 
 def _colors(seeds):

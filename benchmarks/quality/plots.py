@@ -8,13 +8,13 @@ from .scenes import COUNTS
 
 # BGR, and the methods from the weakest to the strongest.
 _COLORS = {
-    "nearest in image": (160, 160, 160),
-    "guided filter": (60, 160, 200),
-    "Yatziv": (60, 140, 40),
-    "Paper": (190, 110, 30),
-    "Levin": (40, 40, 200),
-    "Enhanced": (0, 0, 0),
+    "Enhanced": (190, 110, 30),
+    "constant": (160, 160, 160),
+    "linear": (60, 160, 200),
+    "Levin, three channels": (40, 40, 200),
+    "Natural": (0, 0, 0),
 }
+_LEADING = "Natural"
 _WIDTH, _HEIGHT, _MARGIN, _COLUMNS = 330, 250, 44, 4
 _SCALE = 2
 
@@ -37,7 +37,7 @@ def _panel(name, results):
     import cv2
 
     image = np.full((_HEIGHT * _SCALE, _WIDTH * _SCALE, 3), 255, np.uint8)
-    errors = {method: [r["figures"][method]["color_alone"]["ciede2000_mean"] for r in results] for method in _COLORS}
+    errors = {method: [r["figures"][method]["as_is"]["ciede2000_mean"] for r in results] for method in _COLORS}
     low = math.floor(min(map(min, errors.values())) * 2) / 2
     high = math.ceil(max(map(max, errors.values())) * 2) / 2
     right, bottom = _WIDTH - 14, _HEIGHT - _MARGIN + 8
@@ -47,7 +47,7 @@ def _panel(name, results):
         up = (error - low) / (high - low)
         return tuple(round(_SCALE * v) for v in (_MARGIN + across * (right - _MARGIN - 8), bottom - up * (bottom - 34)))
 
-    step = 0.5 if high - low <= 3 else 1.0
+    step = next(step for step in (0.5, 1.0, 2.0, 5.0, 10.0) if high - low <= 8 * step)
     for tick in np.arange(low, high + 1e-9, step):
         y = place(min(COUNTS), tick)[1]
         cv2.line(image, (_MARGIN * _SCALE, y), (right * _SCALE, y), (225, 225, 225), 1)
@@ -58,7 +58,7 @@ def _panel(name, results):
     _text(image, f"{name}: CIEDE2000 over seeds", (_MARGIN, 20), bold=True)
     for method, color in _COLORS.items():
         points = [place(result["count"], error) for result, error in zip(results, errors[method], strict=True)]
-        cv2.polylines(image, [np.array(points)], False, color, 5 if method == "Enhanced" else 3, cv2.LINE_AA)
+        cv2.polylines(image, [np.array(points)], False, color, 5 if method == _LEADING else 3, cv2.LINE_AA)
     return image
 
 
@@ -69,7 +69,7 @@ def _legend():
     for index, (method, color) in enumerate(_COLORS.items()):
         y = 50 + 28 * index
         ends = [(round(x * _SCALE), round((y - 4) * _SCALE)) for x in (_MARGIN, _MARGIN + 40)]
-        cv2.line(image, *ends, color, 5 if method == "Enhanced" else 3, cv2.LINE_AA)
+        cv2.line(image, *ends, color, 5 if method == _LEADING else 3, cv2.LINE_AA)
         _text(image, method, (_MARGIN + 52, y))
     return image
 

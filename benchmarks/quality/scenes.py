@@ -9,11 +9,14 @@ from benchmarks import real_scans
 from reflcolor_addon.files.images import read_image
 from reflcolor_addon.files.readers import read_scans
 from reflcolor_addon.scan.normalization import normalize
+from reflcolor_addon.scan.scan import Scan
 from reflcolor_addon.seeds.seeds import Seeds
 
 ROOT = Path(__file__).resolve().parents[2]
 SIMULATED = {"cones": "examples/cones"}
-NAMES = (*real_scans.NAMES, *SIMULATED)
+# Spinning lidars with the photo of a separate camera.
+PAIRS = ("kitti_000008", "nus_back_right", "nus_front", "nus_front_left", "pjlab_ours1", "pjlab_ours3")
+NAMES = (*real_scans.NAMES, *PAIRS, *SIMULATED)
 # The parameters of "Enhanced" were chosen on the first half.
 CHOSEN_ON = ("pumpA", "doria", "bildstein_01", "bildstein_10", "bildstein_20")
 OTHERS = tuple(name for name in real_scans.NAMES if name not in CHOSEN_ON)
@@ -39,6 +42,11 @@ def load(name):
         (scan,) = read_scans(folder / f"{name}.scan.json")
         scan = replace(scan, color=read_image(folder / "truth.png"))
         return scan, scan.valid
+    if name in PAIRS:
+        with np.load(data_dir() / "pairs" / name / "scan.npz") as stored:
+            arrays = {part: stored[part] for part in ("points", "reflectance", "valid")}
+            scan = Scan(name=name, color=stored["truth"], **arrays)
+            return scan, stored["known"] & scan.valid
     scan = real_scans.load(name, data_dir())
     return scan, real_scans.has_truth(scan)
 

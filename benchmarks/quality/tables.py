@@ -2,38 +2,95 @@
 
 import statistics
 
-from .measure import METHODS
-from .scenes import CHOSEN_ON, COUNTS, OTHERS
+from .measure import ALONE, AS_IS, CALIBRATION, WHOLE
+from .scenes import CHOSEN_ON, COUNTS, OTHERS, PAIRS
 
-# What "Enhanced" must reach against Levin's optimization in the mean of the ratios over all scans.
-BAR = 0.93
+REAL = CHOSEN_ON + OTHERS + PAIRS
+# Natural to Enhanced as the colors come, in the mean of the ratios over all real scans; and on none above the last.
+NATURAL_BARS, NATURAL_WORST = {500: 0.26, 100: 0.34, 30: 0.43}, 0.7
+# Natural to the best of the peers that give whole colors, in the mean and at worst.
+PEER_BAR, PEER_WORST = 0.93, 1.03
+# Natural to Enhanced in color alone, and in time.
+ALONE_BAR, TIME_BAR = 1.02, 1.3
+# What "Enhanced" must reach against Levin's optimization in color alone, in the mean of the ratios.
+LEVIN_BAR = 0.93
 
 
-def table(results, count, part="color_alone"):
-    """Mean CIEDE2000 and chrominance PSNR of every method on every scan at one number of seeds."""
-    lines = [f"| scan | seeds | {' | '.join(METHODS)} |", "|---|---|" + "---|" * len(METHODS)]
+def as_is_table(results, count):
+    """Mean CIEDE2000 as the colors come / structural similarity of the luminance, at one number of seeds."""
+    return _table(results, count, AS_IS, lambda found: f"{_mean(found, 'as_is'):.2f} / {_similarity(found)}")
+
+
+def exposed_table(results, count):
+    """Mean CIEDE2000 after one exposure gain."""
+    return _table(results, count, AS_IS, lambda found: f"{_mean(found, 'after_gain'):.2f}")
+
+
+def alone_table(results, count):
+    """Mean CIEDE2000 and chrominance PSNR with the true luminance."""
+    return _table(results, count, ALONE, lambda found: f"{_mean(found, 'color_alone'):.2f} / {_psnr(found):.1f}")
+
+
+def _table(results, count, methods, cell):
+    lines = [f"| scan | seeds | {' | '.join(methods)} |", "|---|---|" + "---|" * len(methods)]
     for result in results:
         if result["count"] == count:
-            cells = [
-                f"{figures['ciede2000_mean']:.2f} / {figures['chrominance_psnr_db']:.1f}"
-                for figures in (result["figures"][method][part] for method in METHODS)
-            ]
+            cells = (cell(result["figures"][method]) for method in methods)
             lines.append(f"| {result['scan']} | {result['seeds']} | {' | '.join(cells)} |")
     return "\n".join(lines)
 
 
+def natural_summary(results):
+    """Natural as the colors come: ratios to Enhanced and to the best of the whole-color peers, and the similarity."""
+    lines = [
+        "| scans | seeds | to Enhanced | worst | after one gain | to the best peer | worst | similarity: Enhanced, "
+        "Levin, Natural | color alone to Enhanced | worst |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    groups = {"terrestrial and depth cameras": CHOSEN_ON + OTHERS, "spinning lidars": PAIRS, "all real": REAL}
+    for group, names in groups.items():
+        for count in COUNTS:
+            chosen = [r["figures"] for r in results if r["scan"] in names and r["count"] == count]
+            if chosen:
+                lines.append(f"| {group} | {count} | {' | '.join(_natural_cells(chosen))} |")
+    return "\n".join(lines)
+
+
+def _natural_cells(chosen):
+    mean = statistics.fmean
+
+    def to_enhanced(part):
+        return [_mean(f["Natural"], part) / _mean(f["Enhanced"], part) for f in chosen]
+
+    as_is, gain, alone = (to_enhanced(part) for part in ("as_is", "after_gain", "color_alone"))
+    peers = [to_best_peer(f) for f in chosen]
+    similar = [
+        mean(f[name]["structural_similarity"] or 0 for f in chosen)
+        for name in ("Enhanced", "Levin, three channels", "Natural")
+    ]
+    yield from (f"{mean(as_is):.3f}", f"{max(as_is):.3f}", f"{mean(gain):.3f}")
+    yield from (f"{mean(peers):.3f}", f"{max(peers):.3f}")
+    yield ", ".join(f"{value:.2f}" for value in similar)
+    yield from (f"{mean(alone):.3f}", f"{max(alone):.3f}")
+
+
+def to_best_peer(figures):
+    """Natural's error as the colors come, to the least of the peers that give whole colors."""
+    return _mean(figures["Natural"], "as_is") / min(_mean(figures[peer], "as_is") for peer in WHOLE)
+
+
 def summary(results):
-    """The ratio of "Enhanced" to Levin's and to "Paper", by half and number of seeds, and its worst cases."""
+    """The ratio of "Enhanced" to Levin's and to "Paper" in color alone, by half and number of seeds, and its worst."""
     lines = [
         "| scans | seeds | mean to Levin's | worst | to Paper's | worst | 95 % to Levin's | PSNR over Levin's, worst |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    halves = {"chosen on": CHOSEN_ON, "others": OTHERS, "all": CHOSEN_ON + OTHERS}
-    for half, names in halves.items():
+    groups = {"chosen on": CHOSEN_ON, "others": OTHERS, "spinning lidars": PAIRS, "all": REAL}
+    for group, names in groups.items():
         for count in (*COUNTS, None):
             chosen = [r["figures"] for r in results if r["scan"] in names and count in (None, r["count"])]
             if chosen:
-                lines.append(f"| {half} | {count or 'all'} | {' | '.join(_ratios(chosen))} |")
+                lines.append(f"| {group} | {count or 'all'} | {' | '.join(_ratios(chosen))} |")
     return "\n".join(lines)
 
 
@@ -52,43 +109,101 @@ def _ratios(figures):
 
 def confidence_table(results):
     """Rank correlation of confidence and error, and the mean errors of both halves."""
-    lines = [
-        "| scan | seeds | Paper: rank correlation, halves | Enhanced: rank correlation, halves |",
-        "|---|---|---|---|",
-    ]
+    methods = ("Paper", "Enhanced", "Natural")
+    lines = ["| scan | seeds | " + " | ".join(f"{name}: rank correlation, halves" for name in methods) + " |"]
+    lines.append("|---|---|" + "---|" * len(methods))
     for result in results:
         cells = []
-        for method in ("Paper", "Enhanced"):
+        for method in methods:
             c = result["figures"][method]["confidence"]
             cells.append(f"{c['rank_correlation']:+.2f}, {c['upper_half']:.2f} / {c['lower_half']:.2f}")
         lines.append(f"| {result['scan']} | {result['seeds']} | {' | '.join(cells)} |")
     return "\n".join(lines)
 
 
+def calibration_table(results):
+    """Mean error of all real scans by tenths of the confidence, each scan and number of seeds counting alike."""
+    lines = ["| confidence | " + " | ".join(f"{i / 10:g} to {(i + 1) / 10:g}" for i in range(CALIBRATION)) + " |"]
+    lines.append("|---|" + "---|" * CALIBRATION)
+    real = [result["figures"] for result in results if result["scan"] in REAL]
+    for method in ("Enhanced", "Natural"):
+        cells = []
+        for tenth in range(CALIBRATION):
+            found = [f[method]["confidence"]["by_tenth"][tenth] for f in real]
+            found = [error for error in found if error is not None]
+            cells.append(f"{statistics.fmean(found):.1f}" if found else "")
+        lines.append(f"| {method} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
 def time_table(results):
-    """Seconds of "Paper" and "Enhanced"."""
-    lines = ["| scan | seeds | Paper, s | Enhanced, s | ratio |", "|---|---|---|---|---|"]
+    """Seconds of the presets."""
+    lines = [
+        "| scan | seeds | Paper, s | Enhanced, s | to Paper | Natural, s | to Enhanced |",
+        "|---|---|---|---|---|---|---|",
+    ]
     for result in results:
-        paper, ours = (result["figures"][method]["seconds"] for method in ("Paper", "Enhanced"))
-        lines.append(f"| {result['scan']} | {result['seeds']} | {paper:.2f} | {ours:.2f} | {ours / paper:.2f} |")
+        paper, enhanced, natural = (result["figures"][name]["seconds"] for name in ("Paper", "Enhanced", "Natural"))
+        lines.append(
+            f"| {result['scan']} | {result['seeds']} | {paper:.2f} | {enhanced:.2f} | {enhanced / paper:.2f} "
+            f"| {natural:.2f} | {natural / enhanced:.2f} |"
+        )
     return "\n".join(lines)
 
 
 def failures(results):
     """The bars that are not met on the real scans, one line each."""
-    real = [result for result in results if result["scan"] in CHOSEN_ON + OTHERS]
-    found, ratios = [], []
+    real = [result for result in results if result["scan"] in REAL]
+    return [*_failures_of_natural(real), *_failures_of_enhanced(real)]
+
+
+def _failures_of_natural(real):
+    for count, bar in NATURAL_BARS.items():
+        chosen = [r["figures"] for r in real if r["count"] == count]
+        ratios = [_mean(f["Natural"], "as_is") / _mean(f["Enhanced"], "as_is") for f in chosen]
+        if ratios and statistics.fmean(ratios) > bar:
+            yield f"Natural to Enhanced, {count} seeds: {statistics.fmean(ratios):.3f} is above {bar}"
+        peers = [to_best_peer(f) for f in chosen]
+        if peers and statistics.fmean(peers) > PEER_BAR:
+            yield f"Natural to the best peer, {count} seeds: {statistics.fmean(peers):.3f} is above {PEER_BAR}"
+    for result in real:
+        place, figures = f"{result['scan']}, {result['seeds']} seeds", result["figures"]
+        natural, enhanced = figures["Natural"], figures["Enhanced"]
+        to_enhanced, alone = (_mean(natural, part) / _mean(enhanced, part) for part in ("as_is", "color_alone"))
+        for what, ratio, bar in (
+            ("Natural to Enhanced", to_enhanced, NATURAL_WORST),
+            ("Natural to the best peer", to_best_peer(figures), PEER_WORST),
+            ("color alone of Natural to Enhanced", alone, ALONE_BAR),
+            ("time of Natural to Enhanced", natural["seconds"] / enhanced["seconds"], TIME_BAR),
+        ):
+            if ratio > bar:
+                yield f"{place}: {what}: {ratio:.3f} is above {bar}"
+
+
+def _failures_of_enhanced(real):
+    ratios = []
     for result in real:
         ours, levin, paper = (result["figures"][name]["color_alone"] for name in ("Enhanced", "Levin", "Paper"))
         place = f"{result['scan']}, {result['seeds']} seeds"
         ratios.append(ours["ciede2000_mean"] / levin["ciede2000_mean"])
         for name, other in (("Levin's", levin), ("Paper's", paper)):
             if ours["ciede2000_mean"] >= other["ciede2000_mean"]:
-                found.append(f"{place}: CIEDE2000 is not below {name}")
-        if ours["chrominance_psnr_db"] < levin["chrominance_psnr_db"]:
-            found.append(f"{place}: chrominance PSNR is below Levin's")
-        if result["figures"]["Enhanced"]["confidence"]["rank_correlation"] >= 0:
-            found.append(f"{place}: confidence does not rise as the error falls")
-    if ratios and statistics.fmean(ratios) > BAR:
-        found.append(f"mean ratio to Levin's: {statistics.fmean(ratios):.3f} is above {BAR}")
-    return found
+                yield f"{place}: CIEDE2000 of Enhanced in color alone is not below {name}"
+        for preset in ("Enhanced", "Natural"):
+            if result["figures"][preset]["confidence"]["rank_correlation"] >= 0:
+                yield f"{place}: confidence of {preset} does not rise as the error falls"
+    if ratios and statistics.fmean(ratios) > LEVIN_BAR:
+        yield f"Enhanced to Levin's in color alone: {statistics.fmean(ratios):.3f} is above {LEVIN_BAR}"
+
+
+def _mean(figures, part):
+    return figures[part]["ciede2000_mean"]
+
+
+def _psnr(figures):
+    return figures["color_alone"]["chrominance_psnr_db"]
+
+
+def _similarity(figures):
+    found = figures["structural_similarity"]
+    return "-" if found is None else f"{found:.2f}"

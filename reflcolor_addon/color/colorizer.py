@@ -22,8 +22,9 @@ from ..seeds.seeds import Seeds, require_seeds
 from ..settings import Settings, settings_or_default
 from . import colorspaces, nearest_seeds
 from .colorization import Colorization
-from .kriging import MAX_SEEDS, Kriging, pixel_features, share
-from .luminance import CHROMINANCE, channels_of, lightness, seed_values
+from .kriging import MAX_SEEDS, Kriging, pixel_features
+from .luminance import CHROMINANCE, channels_of, from_one_seed, lightness, seed_values
+from .mixing import PICKED_GAIN, mixture, nearest_other, picked_by_a_person
 from .tone import tone_to_try
 
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
@@ -213,20 +214,39 @@ class Colorizer:
             pool = ThreadPoolExecutor(1, "reflcolor")
             self._features = pool.submit(pixel_features, self.scan, self._smoothed)
             pool.shutdown(wait=False)
-        mean, method, near = self._propagate(
+        mean, method, near, again = self._propagate(
             pixels, values, lambda done, text: progress(propagated * done, text), cancelled
         )
+        alpha = self.settings.alpha
+        if kriging:
+            apart = nearest_other(*near)
+            picked = picked_by_a_person(self._directions(pixels), apart, mean.least[self.scan.valid])
+            if picked > 0:
+                alpha *= PICKED_GAIN**picked
+                mean = again(alpha)
+        # What it holds is as large as the result.
+        del again
         reached = np.isfinite(mean.least)
         spread, confidence = mean.values, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
         if kriging:
-            path_residuals = values - left_out(*near, values, self.settings.alpha)
             estimate, kriging_residuals = self._krige(pixels, values, progress, cancelled)
+            path_residuals = values - left_out(*near, values, alpha)
             unit = colorspaces.levels_per_unit(self.settings.color_space)
             confidence /= 1 + np.hypot(*(estimate - spread)[CHROMINANCE]) * unit / _HALF_CONFIDENCE_LEVELS
             for part, name in zip(channels_of(self.settings), ("kriging", "kriging_of_luminance"), strict=False):
-                method[name] = share(kriging_residuals[:, part], path_residuals[:, part], kriging)
-                spread[part] = (1 - method[name]) * spread[part] + method[name] * estimate[part]
+                mixed = mixture(kriging_residuals[:, part], path_residuals[:, part], apart, kriging, picked)
+                share = mixed.share(mean.least)
+                spread[part] += share * (estimate[part] - spread[part])
+                method[name] = round(float(share[reached].mean()), 3)
+        if self.settings.light > 0 and len(pixels) == 1:
+            own = float(self._luminance.ravel()[pixels[0]])
+            spread[2] = from_one_seed(spread[2], self._luminance, own, self.settings)
         return Spread(np.moveaxis(spread, 0, -1), confidence, mean.nearest_seed, method)
+
+    def _directions(self, pixels):
+        """(S, 3): unit vectors."""
+        points = self.scan.points.reshape(-1, 3)[pixels]
+        return points / np.linalg.norm(points, axis=1, keepdims=True)
 
     def _use(self, settings):
         """Take over settings; what they make void is dropped."""
@@ -266,19 +286,22 @@ class Colorizer:
         require_memory(per_pixel * rows * columns, f"{self.scan.name}: colorizing {rows} rows x {columns} columns")
 
     def _propagate(self, pixels, values, progress, cancelled):
-        """Return the mean of eq. 1, how it was come by, and what lies near the seeds (see the engine's ``nearest``)."""
+        """Return the mean of eq. 1, how it was found, what lies near the seeds, and a function of another alpha.
+
+        What lies near is as in the engine's ``nearest``; the function returns the mean with that alpha.
+        """
         nearest = self.settings.nearest
         method = {"engine": self._engine.name, "note": self._engine.note, "nearest": None}
         few = nearest_seeds.all_are_few(len(pixels), self.scan.valid.size)
         if nearest is None or (nearest == "auto" and (self._engine.note or few)):
-            mean, near = self._exact(pixels, values, progress, cancelled)
-            return mean, method, near
-        mean, found, near = nearest_seeds.mean_of_nearest(
+            mean, near = self._exact(pixels, values, self.settings.alpha, progress, cancelled)
+            return mean, method, near, lambda alpha: self._exact(pixels, values, alpha, lambda *_: None, cancelled)[0]
+        mean, found, near, lists = nearest_seeds.mean_of_nearest(
             self._engine, pixels, values, self.scan.valid, self.settings, self.threads, progress, cancelled
         )
-        return mean, method | found, near
+        return mean, method | found, near, lambda alpha: lists.blend(values, alpha)[0]
 
-    def _exact(self, pixels, values, progress, cancelled):
+    def _exact(self, pixels, values, alpha, progress, cancelled):
         """Eq. 1 over all seeds, in their order; fields that are not held are computed in threads, a few ahead."""
         wanted = list(zip(pixels.tolist(), map(tuple, values.tolist()), strict=True))
         done, near = len(self._blended), None
@@ -286,9 +309,9 @@ class Colorizer:
             # Kriging asks how far the seeds are from each other, so every field is seen again.
             self._forget_sums()
             near = np.empty((pixels.size,) * 2, np.float32), np.broadcast_to(np.arange(pixels.size), (pixels.size,) * 2)
-        if self._blend is None or self._alpha != self.settings.alpha or self._blended != wanted[:done]:
+        if self._blend is None or self._alpha != alpha or self._blended != wanted[:done]:
             self._forget_sums()
-            self._alpha, done = self.settings.alpha, 0
+            self._alpha, done = alpha, 0
             self._blend = self._engine.blend(self._alpha, values.shape[1])
 
         held = done + sum(self._fields.get(pixel) is not None for pixel, _ in wanted[done:])

@@ -36,9 +36,6 @@ MAX_SEEDS = 8000
 # A seed whose error is this many times the median is noisy; its nugget grows with the excess, to the limit.
 _OUTLIER = 4.0
 _OUTLIER_GAIN, _OUTLIER_LIMIT = 0.1, 5.0
-# What is expected of the share of kriging counts as much as this many seeds.
-_SHARE_SEEDS = 30
-_SHARES = np.linspace(0, 1, 21)
 # Seeds are left out one by one in groups of at most this many: the cost grows with the cube.
 _GROUP = 1000
 # Covariances between pixels and seeds between two looks at the wish to cancel, about 0.1 s; without the kernel, of the
@@ -127,25 +124,6 @@ def _covariance(one, other):
     np.sqrt(squared, out=squared)
     np.negative(squared, out=squared)
     return np.exp(squared, out=squared)
-
-
-def share(kriging_residuals, path_residuals, expected):
-    """Return the share of kriging, the rest being eq. 1, that would have estimated the left-out seeds best.
-
-    Parameters
-    ----------
-    kriging_residuals, path_residuals : (S, C) float
-        Values of each seed, less the estimate of either from the others.
-    expected : float, 0 to 1
-        What the share is drawn to, the more so the fewer seeds there are.
-    """
-    errors = [np.linalg.norm(s * kriging_residuals + (1 - s) * path_residuals, axis=1).sum() for s in _SHARES]
-    least = min(errors)
-    if least == 0:
-        return expected
-    count = len(kriging_residuals)
-    cost = count * np.array(errors) / least + _SHARE_SEEDS * (_SHARES - expected) ** 2
-    return float(_SHARES[np.argmin(cost)])
 
 
 def _groups(count):

@@ -1,8 +1,9 @@
 """How light the colors are: as the scan's reflectance, as the seeds tell, or anything between.
 
 A seed has a whole color, so its luminance can be spread over the scan as its chrominance is: along paths (eq. 1) and
-by kriging. The paper takes the luminance from the reflectance instead; that is infrared, in which leaves are
-white and dark cloth is bright, and it has no shadows.
+by kriging. What is blended is its square root, because the same step is seen more in the dark. The paper takes the
+luminance from the reflectance instead; that is infrared, in which leaves are white and dark cloth is bright, and it
+has no shadows.
 """
 
 import numpy as np
@@ -32,14 +33,34 @@ def seed_values(rgb, settings):
     Returns
     -------
     (S, C) float32
-        Two channels of chrominance and, if ``settings.light`` asks for it, the luminance in the same units: one unit
-        is as many levels of 8 bits in each.
+        Two channels of chrominance and, if ``settings.light`` asks for it, the root sqrt(255 Y) of the luminance, in
+        the same units: one unit is as many levels of 8 bits in each.
     """
     values = [colorspaces.chrominance(rgb, settings.color_space)]
     if settings.light > 0:
-        levels = colorspaces.luminance(rgb, settings.color_space)
-        values.append(levels[:, None] / colorspaces.levels_per_unit(settings.color_space))
+        root = np.sqrt(255 * colorspaces.luminance(rgb, settings.color_space))
+        values.append(root[:, None] / colorspaces.levels_per_unit(settings.color_space))
     return np.concatenate(values, axis=1).astype(np.float32)
+
+
+def from_one_seed(root, reflectance, own, settings):
+    """Return a spread luminance that is the same everywhere, with detail: half of it is the reflectance's.
+
+    One seed cannot tell what is light and what is dark, and of a picture that is equally light nothing can be seen.
+
+    Parameters
+    ----------
+    root : (H, W) float32
+        The channel of the luminance, as `seed_values` has it.
+    reflectance : (H, W) float32, 0..255
+        Normalized; it is exposed so that the seed's own pixel is as light as the seed.
+    own : float
+        The reflectance at the seed.
+    settings : Settings
+    """
+    unit = colorspaces.levels_per_unit(settings.color_space)
+    exposure = (root * unit) ** 2 / 255 / own if own > 0 else 1
+    return (root + np.sqrt(255 * np.clip(reflectance * exposure, 0, 255)) / unit) / 2
 
 
 def lightness(reflectance, values, reached, settings):
@@ -62,6 +83,7 @@ def lightness(reflectance, values, reached, settings):
     """
     mixed = reflectance
     if settings.light > 0:
-        seen = np.clip(values[..., 2] * colorspaces.levels_per_unit(settings.color_space), 0, 255)
+        root = np.clip(values[..., 2] * colorspaces.levels_per_unit(settings.color_space), 0, 255)
+        seen = root * root / 255
         mixed = np.where(reached, (1 - settings.light) * reflectance + settings.light * seen, reflectance)
     return toned(mixed, settings.tone)

@@ -28,7 +28,7 @@ def all_are_few(seeds, pixels):
 
 
 def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, cancelled):
-    """Return the mean of eq. 1 over the nearest seeds, how many these are, and those of the seeds' own pixels.
+    """Return the mean of eq. 1 over the nearest seeds, how many these are, and which they are.
 
     Parameters
     ----------
@@ -50,6 +50,8 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
         See ``Colorization.method``.
     near : ((S, k) float32, (S, k) int32)
         Distances and seeds.
+    lists : Nearest or Listed
+        The seeds of all pixels, to be blended with another alpha.
     """
     levels = colorspaces.levels_per_unit(settings.color_space)
     found, method, told = None, {}, 0.0
@@ -75,7 +77,7 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
     inside = bound[valid] * levels
     largest, percentile = float(inside.max()), float(np.percentile(inside, 99.9))
     method["bound_levels"] = {"max": round(largest, 3), "p99.9": round(percentile, 3)}
-    return mean, method, found.at(pixels)
+    return mean, method, found.at(pixels), found
 
 
 def sample_of(valid):
