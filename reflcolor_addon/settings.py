@@ -146,7 +146,7 @@ class Settings:
         label="Matching",
         help="How seeds are found in photos",
         choices=(
-            Choice("verified", "Verified", "By each photo's camera, accepted only if it stands a test"),
+            Choice("verified", "Verified", "By each photo's camera, accepted only if it passes a test"),
             Choice("paper", "Paper", "By the most similar superpixels, as published; often wrong on real scans"),
         ),
     )

@@ -69,7 +69,7 @@ class ReflcolorPhoto(bpy.types.PropertyGroup):
 
     image: PointerProperty(name="Image", description="The photo's picture", type=bpy.types.Image)
     note: StringProperty(name="Note", description="What became of the photo when it was matched")
-    verified: BoolProperty(name="Verified", description="Whether its camera was found and stood the test")
+    verified: BoolProperty(name="Verified", description="Whether its camera was found and passed the test")
 
 
 class ReflcolorScan(bpy.types.PropertyGroup):

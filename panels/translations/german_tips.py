@@ -173,11 +173,11 @@ _SETTINGS = {
     "Above 1 the colors are lighter, below 1 darker, whatever the light comes from; 1 changes nothing": (
         "Über 1 sind die Farben heller, unter 1 dunkler, woher auch immer das Licht kommt; 1 ändert nichts"
     ),
-    "Whether its camera was found and stood the test": "Ob seine Kamera gefunden wurde und die Prüfung bestand",
+    "Whether its camera was found and passed the test": "Ob seine Kamera gefunden wurde und die Prüfung bestand",
     "All seeds where that takes about two seconds, else as many as it takes to be close to that": (
         "Alle Saatpunkte, wo das etwa zwei Sekunden braucht, sonst so viele, dass es dem nahekommt"
     ),
-    "By each photo's camera, accepted only if it stands a test": (
+    "By each photo's camera, accepted only if it passes a test": (
         "Nach der Kamera jedes Fotos, die nur gilt, wenn sie eine Prüfung besteht"
     ),
     "By the most similar superpixels, as published; often wrong on real scans": (

@@ -30,7 +30,7 @@ class PhotoMatch:
     ----------
     name : str
     verified : bool
-        Whether its camera was found and stood the test, or follows from pairs picked by hand.
+        Whether its camera was found and passed the test, or follows from pairs picked by hand.
     model : Camera, GridHomography or None
         In pixels of the photo as given.
     reason : {"pose", "homography", "hand"} or None
@@ -116,7 +116,7 @@ def match_photos(
     photos : sequence of paths, of (H, W, 3) uint8 sRGB, or of (name, (H, W, 3) uint8 sRGB)
         Not calibrated, from wherever they were taken. Arrays without a name are called "photo 1", "photo 2" ...
     settings : Settings, optional
-        ``matching="verified"``: each photo's camera is estimated and accepted only if it stands a test; an accepted
+        ``matching="verified"``: each photo's camera is estimated and accepted only if it passes a test; an accepted
         photo gives a seed in every superpixel that it really shows, and by likeness in others as far as that is sure.
         Without an accepted photo there are no seeds, unless ``guess`` asks for guesses.
         ``matching="paper"``: as published, by the most similar superpixel.

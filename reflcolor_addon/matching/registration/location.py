@@ -26,7 +26,7 @@ class Location:
 
     registration : Registration
     verified : bool
-        Its camera was found and stood the test, or follows from pairs picked by hand.
+        Its camera was found and passed the test, or follows from pairs picked by hand.
     reason : {"pose", "homography", "hand"} or None
     note : Message
         One line for a person.
