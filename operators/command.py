@@ -9,13 +9,23 @@ from .scene.simulate_file import simulate_file
 from .scene.write_results import write_results
 
 
-def run(argv):
-    """Run the command line with all that Blender can do; return the exit status."""
+def run(argv, command=None):
+    """Run the command line with all that Blender can do; return the exit status.
+
+    Parameters
+    ----------
+    argv : list of str
+    command : tuple of str, optional
+        What starts it in another process; by default Blender itself is started again.
+    """
+    if command is None and bpy.app.binary_path:
+        command = (bpy.app.binary_path, "-b", "--command", "reflcolor")
     tasks = BlenderTasks(
         version=bpy.app.version_string,
         write_scene=write_results,
         simulate=simulate_file,
         read_provenance=read_provenance,
+        command=command,
     )
     return cli.main(argv, prog="blender -b --command reflcolor", blender=tasks)
 

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 CORE = "reflcolor_addon"
 # Modules of the core's ground floor, which every room may import.
-GROUND = {"bundled", "declaration", "errors", "failures", "messages", "progress", "settings", "srgb", "version"}
+GROUND = {"bundled", "declaration", "errors", "failures", "messages", "progress", "settings", "srgb", "threads", "version"}
 # What each room may import besides itself and the ground floor. Data walks from the top of this list to its end.
 ROOMS = {
     "native": set(),
@@ -22,8 +22,8 @@ ROOMS = {
     "color": {"native", "scan", "files", "seeds", "geodesic"},
     "matching": {"scan", "files", "seeds", "color"},
     "simulation": {"scan", "color"},
-    "report": {"scan", "files", "seeds", "color"},
     "view": {"scan", "seeds", "color"},
+    "report": {"scan", "files", "seeds", "color", "view"},
     "batch": {"scan", "files", "seeds", "geodesic", "color", "matching", "report", "view"},
     "cli": {"scan", "files", "seeds", "color", "matching", "simulation", "report", "view", "batch"},
 }

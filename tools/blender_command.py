@@ -49,7 +49,8 @@ def run(zip_file: Path, resources: Path, argv: list[str]) -> int:
     blender_session.start(zip_file, resources)
     command = importlib.import_module(f"{blender_session.EXTENSION}.operators.command")
     try:
-        return command.run(argv)
+        again = (sys.executable, str(Path(__file__).resolve()), "--zip", str(zip_file), "--resources", str(resources))
+        return command.run(argv, (*again, "--"))
     except SystemExit as error:
         return error.code if isinstance(error.code, int) else int(error.code is not None)
 

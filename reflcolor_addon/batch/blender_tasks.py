@@ -25,12 +25,15 @@ class BlenderTasks:
     read_provenance : callable
         Called as ``read_provenance(path)`` with a .blend; returns a list of (name, text) of the objects in it that are
         scans: text is the report as JSON, or None. Raises ReflcolorError.
+    command : tuple of str, optional
+        What starts this command line in another Blender like this one; arguments follow.
     """
 
     version: str
     write_scene: Callable
     simulate: Callable
     read_provenance: Callable
+    command: tuple[str, ...] | None = None
 
 
 def require_blender(blender, what):

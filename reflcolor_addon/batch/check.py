@@ -51,7 +51,7 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     -------
     Given
     """
-    if plan.seeds is None and plan.from_color is None and not plan.photos:
+    if plan.seeds is None and plan.from_color is None and plan.colors is None and not plan.photos:
         refuse(UsageError("--seeds or --photo: give seeds, or photos to find them in"))
     _check_choice(plan, refuse)
     for output in plan.outputs:

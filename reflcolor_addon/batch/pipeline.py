@@ -4,13 +4,19 @@ The command line and batches run a whole `Plan`. Blender's operators make jobs f
 same steps; they read and write the scene instead of files.
 """
 
+import numpy as np
+
+from ..color.colorization import Colorization
 from ..color.colorizer import colorize
-from ..errors import SeedsError
+from ..errors import ScanError, SeedsError
+from ..files.images import read_image
 from ..matching import match_site
 from ..messages import Message, about_scan
 from ..progress import part
 from ..seeds.scan_colors import seeds_from_color
+from ..seeds.seeds import Seeds
 from .check import check_plan
+from .plan import filled
 from .read import read_jobs
 from .scan_job import require_reflectance
 from .session import timed
@@ -42,7 +48,9 @@ def run_plan(plan, session):
     jobs = read_jobs(plan, given, session, times)
     for job in jobs:
         session.warnings += job.scan.warnings
-    if plan.from_color is not None:
+    if plan.colors is not None:
+        _take_colors(jobs, plan)
+    elif plan.from_color is not None:
         with timed(times, "seeds"):
             for job in jobs:
                 job.seeds = seeds_from_color(job.opened(), plan.from_color)
@@ -50,9 +58,17 @@ def run_plan(plan, session):
         # Looking for a file of seeds is no part of it.
         del times["seeds"]
         with timed(times, "match"):
-            find_seeds(jobs, plan.photos, plan.settings, progress=session.progress, cancelled=session.cancelled)
+            find_seeds(
+                jobs,
+                plan.photos,
+                plan.settings,
+                registered=_registered(jobs, plan, session),
+                progress=session.progress,
+                cancelled=session.cancelled,
+            )
+        session.matchings += [job.matching for job in jobs]
         _tell_matching(jobs, session)
-        _check_found(jobs)
+        jobs = _shown(jobs, plan, session)
     count = len(jobs)
     with writing(plan, jobs, session) as write:
         for number in range(count):
@@ -64,6 +80,31 @@ def run_plan(plan, session):
                     colorize_job(job, plan.settings, progress=progress, cancelled=session.cancelled)
                 session.warnings += _named(job, count, job.colorization.warnings)
             write(job)
+
+
+def _take_colors(jobs, plan):
+    """Give each scan the colors of an image that was made from it before."""
+    for job in jobs:
+        path = filled(plan.colors, job.label)
+        rgb, shape = read_image(path), job.scan.shape
+        if rgb.shape[:2] != shape:
+            raise ScanError(
+                "{file}: has {width} x {height} pixels, expected {columns} x {rows} as the scan {scan} has",
+                file=path,
+                width=rgb.shape[1],
+                height=rgb.shape[0],
+                columns=shape[1],
+                rows=shape[0],
+                scan=job.name,
+            )
+        job.seeds = Seeds(rows=[], cols=[], rgb=np.zeros((0, 3), np.uint8))
+        job.colorization = Colorization(
+            rgb=rgb,
+            confidence=np.zeros(shape, np.float32),
+            nearest_seed=np.full(shape, -1, np.int32),
+            seeds=job.seeds,
+            normalization={"reflectance": (0.0, 0.0), "range": (0.0, 0.0)},
+        )
 
 
 def _tell_matching(jobs, session):
@@ -79,18 +120,30 @@ def _named(job, count, lines):
     return [about_scan(line, job.name) for line in lines] if count > 1 else lines
 
 
-def _check_found(jobs):
-    """Raise SeedsError where no seeds were found for a scan."""
+def _registered(jobs, plan, session):
+    """What `find_seeds` asks for a photo's registration; None where nothing is remembered."""
+    if session.registrations is None:
+        return None
+    jobs = list(jobs)
+    return lambda scan, photo, register: session.registrations(jobs[scan], plan.photos[photo], register)
+
+
+def _shown(jobs, plan, session):
+    """The jobs for which seeds were found; the others are left out if the plan has it so, else SeedsError is raised."""
+    shown = [job for job in jobs if len(job.seeds)]
     for job in jobs:
-        if not len(job.seeds):
+        if not len(job.seeds) and plan.skip_unshown:
+            session.left_out.append(job.label)
+        elif not len(job.seeds):
             raise SeedsError(
                 "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs and find seeds with "
                 "--hand, or take guessed colors with --guess",
                 scan=job.name,
             )
+    return shown
 
 
-def find_seeds(jobs, photos, settings, *, progress=None, cancelled=None):
+def find_seeds(jobs, photos, settings, *, registered=None, progress=None, cancelled=None):
     """Find the seeds of all jobs in the same photos; each job keeps its `Matching`.
 
     Parameters
@@ -99,6 +152,8 @@ def find_seeds(jobs, photos, settings, *, progress=None, cancelled=None):
     photos : sequence
         As `match_site` takes them.
     settings : Settings
+    registered : callable, optional
+        As `match_site`.
     progress, cancelled : callable, optional
     """
     for job in jobs:
@@ -109,6 +164,7 @@ def find_seeds(jobs, photos, settings, *, progress=None, cancelled=None):
         settings,
         hand=[job.hand for job in jobs],
         kept=[job.kept for job in jobs],
+        registered=registered,
         progress=progress,
         cancelled=cancelled,
     )

@@ -12,7 +12,7 @@ from ..view.picture import Picture
 PLACEHOLDER = "{scan}"
 """Stands for a scan's label in the path of what each of several scans has of its own."""
 IMAGE, MESH, SCANS, SCENE = "image", "mesh", "scans", "scene"
-RENDER, REPORT, SEEDS, MATCHES = "render", "report", "seeds", "matches"
+RENDER, REPORT, SEEDS, MATCHES, PREVIEW = "render", "report", "seeds", "matches", "preview"
 RESULT_SUFFIXES = {
     ".png": IMAGE,
     ".ply": MESH,
@@ -74,6 +74,8 @@ class Plan:
     settings : Settings
     wanted : str, optional
         Which scan of a file with several: its name, its index counted from 1, or "all".
+    name : str, optional
+        What stands for the label of a scan that is the only one, and before the labels of several.
     seeds : Path, optional
         A file of seeds; without one they are found in the photos.
     hand : Path, optional
@@ -82,25 +84,32 @@ class Plan:
         How many seeds to take from the scan's own colors instead.
     photos : tuple of Path
         Photos that the seeds name, or that seeds are found in.
+    colors : Path, optional
+        A colorized image for each scan, whose colors are taken as they are.
     outside_files : bool
         Let a `.scan.json` name images outside of its own folder.
     reading : ReadOptions
         How the scans are to be read.
     picture : Picture
         How scenes and pictures show the scans.
+    skip_unshown : bool
+        Whether scans for which no seeds are found are left out, instead of refused.
     """
 
     scans: tuple[Path, ...]
     outputs: tuple[Output, ...]
     settings: Settings = field(default_factory=Settings)
     wanted: str | None = None
+    name: str | None = None
     seeds: Path | None = None
     hand: Path | None = None
     from_color: int | None = None
     photos: tuple[Path, ...] = ()
+    colors: Path | None = None
     outside_files: bool = False
     reading: ReadOptions = AS_IT_IS
     picture: Picture = field(default_factory=Picture)
+    skip_unshown: bool = False
 
     @property
     def needs_colors(self):
@@ -137,3 +146,12 @@ def result_output(path, option="-o"):
 def filled(path, label):
     """Return a path with a scan's label instead of the placeholder."""
     return Path(str(path).replace(PLACEHOLDER, label))
+
+
+def default_settings(preset):
+    """Return the settings of a preset as command line and batches have them.
+
+    All seeds of a large scan can take minutes, so here the paper's exactness has to be asked for.
+    """
+    settings = Settings.preset(preset)
+    return replace(settings, nearest="auto") if settings.nearest is None else settings

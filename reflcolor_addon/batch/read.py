@@ -57,7 +57,7 @@ def _scan_jobs(plan, session):
         else:
             found.append((path, *choose_scan(scans, plan.wanted, path, all_of_them=True)))
     names = distinct([scan.name for _, _, scan in found])
-    labels = distinct([safe_label(name) for name in names], joint="_", key=str.casefold)
+    labels = _labels(names, plan.name)
     return [
         ScanJob(
             name=name,
@@ -68,6 +68,15 @@ def _scan_jobs(plan, session):
         )
         for (path, index, scan), name, label in zip(found, names, labels, strict=True)
     ]
+
+
+def _labels(names, plan_name):
+    """The names made safe for file names, each another, not even alike but for capitals."""
+    if plan_name is not None and len(names) == 1:
+        return [plan_name]
+    labels = distinct([safe_label(name) for name in names], joint="_", key=str.casefold)
+    # No safe label holds a plus sign: none of these can be another plan's.
+    return labels if plan_name is None else [f"{plan_name}+{label}" for label in labels]
 
 
 def _add_seeds(jobs, plan, given, session):

@@ -9,6 +9,7 @@ from pathlib import Path
 from ..errors import Cancelled
 from ..files.readers import read_scans
 from ..files.readers.options import AS_IT_IS
+from ..matching import Matching
 from .blender_tasks import BlenderTasks
 
 
@@ -24,23 +25,36 @@ class Session:
     ----------
     say : callable
         Called with each line of the result.
+    complain : callable
+        Called with each line of what is wrong, where it is more than one.
     show : callable
         Called as ``show(fraction, text)`` to show progress.
     cancelled : callable
         Whether the work should end.
     blender : BlenderTasks or None
         What only Blender can do; None without Blender.
+    registrations : callable, optional
+        Called as ``registrations(job, photo, register)`` where the photo at a path has to be registered on the scan of
+        a `ScanJob`; keeps what was found for the next time.
     written : list of Path
         The results that are there, whole; for the message when a later one fails.
+    matchings : list of Matching
+        How the seeds of each scan were found.
+    left_out : list of str
+        Labels of scans that no photo shows, and that were left out for it.
     warnings : list of str
         What is to be said when all went well; a failure is the only line of its run.
     """
 
     say: Callable[[str], None] = _ignore
+    complain: Callable[[str], None] = _ignore
     show: Callable[[float, str], None] = _ignore
     cancelled: Callable[[], bool] = bool
     blender: BlenderTasks | None = None
+    registrations: Callable | None = None
     written: list[Path] = field(default_factory=list)
+    matchings: list[Matching] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 
     @property

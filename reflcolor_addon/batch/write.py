@@ -5,14 +5,15 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..files.atomic import written_atomically
-from ..files.images import write_png
+from ..files.images import write_jpeg, write_png
 from ..files.writers import MESH_WRITERS
 from ..files.writers.scans_back import ColoredScan, write_scans_back
 from ..matching import draw_matches
 from ..messages import Message
-from ..report.report import build_report, input_entry, output_entry, photo_entry, scan_entry, stamped
+from ..report.report import REPORT_OPTION, build_report, input_entry, output_entry, photo_entry, scan_entry, stamped
+from ..view.preview import preview
 from .paths import tracked
-from .plan import IMAGE, MATCHES, MESH, RENDER, REPORT, SCANS, SCENE, SEEDS
+from .plan import IMAGE, MATCHES, MESH, PREVIEW, RENDER, REPORT, SCANS, SCENE, SEEDS
 from .scan_job import surface_of
 from .session import timed
 
@@ -67,6 +68,9 @@ class _Writer:
                     _SEED_WRITERS[output.kind](job, self._plan, output.path)
             if self._reported:
                 job.report = self._report(job)
+            for output in job.outputs:
+                if output.kind == PREVIEW:
+                    write_jpeg(output.path, preview(job.scan, job.colorization))
             self._write_meshes([job], job.outputs)
             self._write_scenes([job], job.outputs)
         # Nothing that costs more than this is kept until all scans are colorized.
@@ -100,7 +104,7 @@ class _Writer:
 
     def _output_entry(self, entry, report_path):
         """What a report says of one of its outputs; of itself only where it is."""
-        if entry["option"] == "--report":
+        if entry["option"] == REPORT_OPTION:
             return entry
         return output_entry(entry["option"], Path(entry["path"]), report_path, self._session.cancelled)
 

@@ -33,7 +33,13 @@ def main(argv, *, prog="python -m reflcolor_addon", blender=None):
     with Interruption() as interruption:
         open_standard_streams()
         console = Console()
-        session = Session(say=console.print, show=console.progress, cancelled=interruption.requested, blender=blender)
+        session = Session(
+            say=console.print,
+            complain=console.error,
+            show=console.progress,
+            cancelled=interruption.requested,
+            blender=blender,
+        )
         try:
             status, line = _outcome(argv, prog, session, console, interruption)
         except KeyboardInterrupt:  # a second signal, of one who does not want to wait
@@ -96,7 +102,9 @@ def _parser(prog):
         dest="verb", metavar="VERB", required=True, parser_class=partial(_Parser, allow_abbrev=False)
     )
     for verb in VERBS:
-        subparser = verbs.add_parser(verb.NAME, help=verb.HELP, description=verb.run.__doc__)
+        # A verb without a help is not listed.
+        shown = {} if verb.HELP is None else {"help": verb.HELP}
+        subparser = verbs.add_parser(verb.NAME, description=verb.run.__doc__, **shown)
         verb.add_arguments(subparser)
         subparser.set_defaults(run=verb.run)
     return parser

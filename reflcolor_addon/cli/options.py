@@ -5,10 +5,11 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from ..batch.plan import default_settings
 from ..errors import SettingsError, UsageError
 from ..files.readers import SCAN_SUFFIXES
 from ..files.readers.options import ANGLE, AUTO, RETURNS, STORED, TURNS, UNITS, ReadOptions
-from ..settings import DEFAULT_PRESET, MATCHING, PRESETS, PROPAGATION, SETTINGS, Settings
+from ..settings import DEFAULT_PRESET, MATCHING, PRESETS, PROPAGATION, SETTINGS
 from ..view.picture import ARCHIVE, LOOKS
 
 _SCAN_HELP = "which scan of a file of several: its name, its index as info prints it (counted from 1), or all"
@@ -168,15 +169,6 @@ def _value(setting, text):
         return setting.named(text)
     except SettingsError as error:
         raise argparse.ArgumentTypeError(f"expected {setting.expected(named=True)}, found {text}") from error
-
-
-def default_settings(preset):
-    """Return the settings of a preset as the command line has them.
-
-    All seeds of a large scan can take minutes, so here the paper's exactness has to be asked for.
-    """
-    settings = Settings.preset(preset)
-    return replace(settings, nearest="auto") if settings.nearest is None else settings
 
 
 def settings_of(arguments):

@@ -1,6 +1,5 @@
 """Method 1 of the paper, holding what a scan has in common from one colorization to the next."""
 
-import os
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
 from typing import NamedTuple
@@ -20,6 +19,7 @@ from ..scan.normalization import normalize
 from ..scan.scan import Scan, require_scan
 from ..seeds.seeds import Seeds, require_seeds
 from ..settings import Settings, settings_or_default
+from ..threads import thread_count
 from . import colorspaces, nearest_seeds
 from .colorization import Colorization
 from .kriging import MAX_SEEDS, Kriging, pixel_features
@@ -105,7 +105,7 @@ class Colorizer:
     ) -> None:
         require_scan(scan)
         self.scan = scan
-        self.threads = threads or os.cpu_count() or 1
+        self.threads = threads or thread_count()
         self._fields = HeldFields(memory)
         self._luminance, reflectance_limits = normalize(scan.reflectance, scan.valid)
         self._median = float(np.median(self._luminance[scan.valid])) if scan.valid.any() else 0.0

@@ -165,19 +165,44 @@ def write_png(path, image):
     OutputError
         If the file cannot be written.
     """
+    _write_encoded(path, image, ".png", "PNG")
+
+
+def write_jpeg(path, image, quality=85):
+    """Write a JPEG that is whole or not there.
+
+    Parameters
+    ----------
+    path : path-like
+    image : (H, W) or (H, W, 3) uint8
+        Gray or sRGB.
+    quality : int
+        1 to 100.
+
+    Raises
+    ------
+    OutputError
+        If the file cannot be written.
+    """
+    import cv2
+
+    _write_encoded(path, image, ".jpg", "JPEG", (cv2.IMWRITE_JPEG_QUALITY, quality))
+
+
+def _write_encoded(path, image, suffix, name, options=()):
     import cv2
 
     image = np.asarray(image)
     if image.ndim == 3:
         image = cv2.cvtColor(image, {3: cv2.COLOR_RGB2BGR, 4: cv2.COLOR_RGBA2BGRA}[image.shape[2]])
     try:
-        done, data = cv2.imencode(".png", np.ascontiguousarray(image))
+        done, data = cv2.imencode(suffix, np.ascontiguousarray(image), options)
     except cv2.error as error:
         done, reason = False, error.err
     else:
         reason = "the encoder refused it"
     if not done:
-        raise OutputError(f"{path}: cannot be encoded as PNG ({reason})")
+        raise OutputError("{path}: cannot be encoded as {name} ({reason})", path=path, name=name, reason=reason)
     with written_atomically(path) as temporary:
         temporary.write_bytes(data)
 

@@ -165,6 +165,7 @@ def match_site(
     *,
     hand: Sequence[Seeds | None] | None = None,
     kept: Sequence[Seeds | None] | None = None,
+    registered: Callable | None = None,
     progress: Progress | None = None,
     cancelled: IsCancelled | None = None,
 ) -> list[Matching]:
@@ -177,6 +178,9 @@ def match_site(
     scans : sequence of Scan
     hand, kept : sequence of Seeds or None, optional
         For each scan, as `match_photos`.
+    registered : callable, optional
+        Called as ``registered(scan_number, photo_number, register)`` where a photo has to be registered without any
+        help; returns a `Registration`. ``register()`` finds it; what is known from before need not be found again.
     photos, settings, progress, cancelled
         As `match_photos`.
 
@@ -222,7 +226,7 @@ def match_site(
     else:
         matchings = [
             Matching(seeds, tuple(map(_report, opened, locations)), tuple(warnings))
-            for seeds, locations, warnings in site.verified(scans, opened, hand, settings, step)
+            for seeds, locations, warnings in site.verified(scans, opened, hand, settings, step, registered)
         ]
     progress(1.0, "Matched")
     gray = tuple(f"{photo.name}: is black and white, it gives no colors" for photo in opened if _is_gray(photo.rgb))
@@ -244,6 +248,7 @@ def opened_photos(photos, warnings=None):
     """
     if isinstance(photos, str | Path) or (isinstance(photos, np.ndarray) and photos.ndim == 3):
         photos = [photos]
+    names = names_of_files([photo for photo in photos if isinstance(photo, str | Path)])
     opened = []
     for number, photo in enumerate(photos, 1):
         if isinstance(photo, np.ndarray):
@@ -253,7 +258,7 @@ def opened_photos(photos, warnings=None):
             if rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.dtype != np.uint8:
                 raise ImageError(f"{name}: expected (H, W, 3) uint8, found {rgb.shape} {rgb.dtype}")
         else:
-            name, rgb = Path(photo).name, read_image(photo, warnings)
+            name, rgb = names[str(photo)], read_image(photo, warnings)
         if min(rgb.shape[:2]) < _LEAST_SIDE:
             raise ImageError(
                 f"{name}: has {rgb.shape[1]} x {rgb.shape[0]} pixels, expected at least {_LEAST_SIDE} on each side"
@@ -262,6 +267,29 @@ def opened_photos(photos, warnings=None):
             raise ImageError(f"{photo if isinstance(photo, str | Path) else name}: {_TWICE}")
         opened.append(PhotoImage(name, rgb))
     return opened
+
+
+def names_of_files(paths):
+    """Return what photos are called: the name of the file, and where several have it, as many folders as it takes.
+
+    Parameters
+    ----------
+    paths : sequence of path-like
+
+    Returns
+    -------
+    dict of str to str
+        By the path as text, with slashes: "hall.jpg", or "2019/hall.jpg" and "2021/hall.jpg".
+    """
+    parts = {str(path): Path(path).absolute().parts for path in paths}
+    names = {}
+    for text, own in parts.items():
+        others = [other for key, other in parts.items() if key != text and other != own]
+        count = 1
+        while count < len(own) and any(other[-count:] == own[-count:] for other in others):
+            count += 1
+        names[text] = "/".join(own[-count:])
+    return names
 
 
 def joined(*groups):

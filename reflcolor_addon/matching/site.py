@@ -31,7 +31,7 @@ class _OnScan:
     shown: list
 
 
-def verified(scans, photos, hand, settings, step):
+def verified(scans, photos, hand, settings, step, registered=None):
     """Yield seeds, the `Location` of each photo, and warnings for every scan.
 
     Parameters
@@ -43,12 +43,15 @@ def verified(scans, photos, hand, settings, step):
     settings : Settings
     step : callable
         ``step(fraction, text)``; may raise to end the work.
+    registered : callable, optional
+        As `match_site`.
     """
     places = [_prepared(scan, settings, step) for scan in scans]
     share = 0.8 / len(photos)
     for index, photo in enumerate(photos):
         counted = _counted(step, 0.05 + share * index, share, len(places))
-        found = located(scans, [place.views for place in places], hand, photo, counted)
+        of_photo = registered and (lambda number, register, index=index: registered(number, index, register))
+        found = located(scans, [place.views for place in places], hand, photo, counted, of_photo)
         for place, location in zip(places, found, strict=True):
             place.locations.append(location)
             place.warnings += location.warnings

@@ -16,6 +16,8 @@ from ..version import __version__
 
 FORMAT = "reflcolor-report"
 VERSION = 1
+REPORT_OPTION = "--report"
+"""The option of a report among its own outputs; it tells no hash of itself."""
 # Packages that a result depends on.
 _PACKAGES = ("numpy", "scipy", "scikit-image", "opencv-python-headless", "pye57")
 _CHUNK_BYTES = 1 << 20
@@ -65,6 +67,7 @@ def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(
             "colored": colored,
             "unreached": scan["returns"] - colored,
             "guessed": colorization.seeds.all_guessed,
+            "mean_confidence": round(float(colorization.confidence.sum()) / max(scan["returns"], 1), 4),
         },
         "method": colorization.method,
         "warnings": [*noticed, *colorization.warnings],

@@ -6,7 +6,7 @@ from pathlib import Path
 from ..errors import ReflcolorError
 from ..files.whole import fault_of
 from ..messages import Message
-from .report import fingerprint
+from .report import REPORT_OPTION, fingerprint
 
 WHOLE, CHANGED, MISSING = "whole", "changed", "missing"
 
@@ -53,7 +53,7 @@ def verify_outputs(report, report_path, cancelled=None):
         If ``cancelled()`` returned True.
     """
     try:
-        named = [entry for entry in report["outputs"] if entry["option"] != "--report"]
+        named = [entry for entry in report["outputs"] if entry["option"] != REPORT_OPTION]
         entries = [
             (report_path.parent / entry["from_report"], Path(entry["path"]), entry["bytes"], entry["sha256"])
             for entry in named

@@ -267,8 +267,8 @@ def find_photo(name, seeds_path, photos):
     seeds_path : Path
         The file of seeds.
     photos : sequence of paths
-        Photos that were given. Only their file names count; they go before what is beside the file of seeds, in its
-        folder or below; nothing else is opened because a file of seeds names it.
+        Photos that were given. Only their file names count, and as many folders as the name tells; they go before what
+        is beside the file of seeds, in its folder or below; nothing else is opened because a file of seeds names it.
 
     Raises
     ------
@@ -276,6 +276,8 @@ def find_photo(name, seeds_path, photos):
         If several of the given photos have that name.
     """
     given = sorted({Path(photo) for photo in photos if Path(photo).name == Path(name).name})
+    tail = Path(name).parts
+    given = [path for path in given if path.absolute().parts[-len(tail) :] == tail] or given
     if len(given) > 1:
         raise SeedsError(f"{seeds_path}: photo {name} may be {given[0]} or {given[1]}; give them different names")
     path = given[0] if given else beside(seeds_path, name)

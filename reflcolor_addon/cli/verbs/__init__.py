@@ -3,6 +3,6 @@
 A verb's module has ``NAME`` and ``HELP``, ``add_arguments(parser)`` and ``run(arguments, session)``.
 """
 
-from . import colorize, evaluate, info, provenance, seeds, simulate, verify
+from . import batch, colorize, evaluate, info, manifest, provenance, report, seeds, simulate, verify, work
 
-VERBS = (info, seeds, colorize, evaluate, provenance, verify, simulate)
+VERBS = (info, seeds, colorize, evaluate, provenance, verify, simulate, manifest, batch, report, work)

@@ -5,6 +5,7 @@ confirms it, or shows nothing of the photo, or must be beyond doubt by itself to
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -60,7 +61,7 @@ class Location:
         return self.by_hand, self.registration.evidence.rank
 
 
-def located(scans, views, hand, photo, step):
+def located(scans, views, hand, photo, step, registered=None):
     """Return the `Location` of a photo on each scan of a site.
 
     Parameters
@@ -73,7 +74,11 @@ def located(scans, views, hand, photo, step):
     photo : PhotoImage
     step : callable
         Called with a text before each stage; may raise to end the work.
+    registered : callable, optional
+        Called as ``registered(number, register)`` where a photo has to be registered on a scan without any help;
+        ``register()`` does it. So a registration that is known already can be used.
     """
+    registered = registered or (lambda number, register: register())
     found = [_by_hand(*own, photo, step) for own in zip(scans, views, hand, strict=True)]
     of_pairs = [location.warnings for location in found]
     for number, (scan, own_views) in enumerate(zip(scans, views, strict=True)):
@@ -81,7 +86,7 @@ def located(scans, views, hand, photo, step):
             anchor = _surest(scans, found, scan)
             known = None if anchor is None else _known_from(scans[anchor], found[anchor], scan, own_views, photo, step)
             if known is None or not known.verified:
-                known = _judged(scan, photo, register(own_views, photo, step=step))
+                known = _judged(scan, photo, registered(number, partial(register, own_views, photo, step=step)))
             found[number] = replace(known, warnings=of_pairs[number] + known.warnings)
     for number, (scan, own_views) in enumerate(zip(scans, views, strict=True)):
         anchor = _surest(scans, found, scan)

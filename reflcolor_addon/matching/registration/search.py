@@ -99,6 +99,10 @@ class Search:
             looked_at += self._near(guess, [guess.focal * factor for factor in (0.93, 1.0, 1.07)], [0.0])
         return _unlike_ones(looked_at)
 
+    def roughly(self, focals, coarser, step=lambda: None):
+        """Return `Guess`es of a level photo taken from about the scanner's place, on coarser maps, best first."""
+        return _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], coarser, focals, (0.0,), 2, step))
+
     def _everywhere(self, places, coarser, focals, pitches, count, step):
         """The best guesses from each place for each focal length and pitch."""
         guesses, spheres = [], {}

@@ -5,11 +5,11 @@ right shifts its map. So one correlation by FFT tries every direction, on edge f
 overlaps.
 """
 
-import os
 from dataclasses import dataclass
 
 import numpy as np
 
+from ...threads import thread_count
 from ..edges import scan_features
 from ..models import Camera, camera_axes, within
 
@@ -20,7 +20,6 @@ _LEAST_OVERLAP = 0.2
 _MOST_MAPS, _MOST_SPECTRA = 200, 8
 # Sides of transforms are rounded up to these, so that maps of like size share what is transformed once.
 _ROUND_TO = 32
-_WORKERS = os.cpu_count() or 1
 
 
 @dataclass(frozen=True)
@@ -137,13 +136,13 @@ class SphereMap:
             for own, other in zip(self.shape, patch.seen.shape, strict=True)
         )
         if self._spectra[0] != shape:
-            self._spectra = shape, fft.rfft2(self._layers, shape, workers=_WORKERS)
+            self._spectra = shape, fft.rfft2(self._layers, shape, workers=thread_count())
         own, other = self._spectra[1], photo_maps.spectra(key, shape)
         # Products, the scan's energy within the photo, and what overlaps; a photo's energy is the same everywhere.
         spectra = np.empty((3, *own.shape[1:]), np.complex64)
         np.einsum("cij,cij->ij", own[:-2], other[:-1], out=spectra[0])
         np.multiply(own[-2:], other[-1], out=spectra[1:])
-        product, energy, overlap = fft.irfft2(spectra, shape, workers=_WORKERS)
+        product, energy, overlap = fft.irfft2(spectra, shape, workers=thread_count())
         enough = overlap > _LEAST_OVERLAP * min(patch.seen.sum(), self._seen)
         usual = (patch.features**2).sum() / patch.seen.sum()
         scores = np.where(enough, product / np.sqrt(np.maximum(energy, 1.0) * max(usual, 1e-6)), -1)
@@ -185,7 +184,7 @@ class PhotoMaps:
                 self._transformed.clear()
             patch = self.at(*key)
             self._transformed[key, shape] = np.conj(
-                fft.rfft2(_layers(patch.features, patch.seen), shape, workers=_WORKERS)
+                fft.rfft2(_layers(patch.features, patch.seen), shape, workers=thread_count())
             )
         return self._transformed[key, shape]
 

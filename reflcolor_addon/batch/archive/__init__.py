@@ -1,0 +1,1 @@
+"""Whole archives: a manifest of many scans, worked on by several processes at once."""

@@ -1,0 +1,79 @@
+"""Looks at a manifest before the work begins: everything that can be wrong with it is found out at once."""
+
+from ...errors import ReflcolorError, UsageError
+from ...files.gate import opened
+from ...files.readers import SCAN_SUFFIXES
+from ...messages import Message
+from ..check import load_seeds
+from ..paths import output_faults
+from ..plan import PLACEHOLDER, RENDER, filled
+
+
+def check_manifest(manifest, blender, refuse):
+    """Look at the files that a manifest names, and at where its results go.
+
+    Parameters
+    ----------
+    manifest : Manifest
+    blender : BlenderTasks or None
+    refuse : callable
+        Given a UsageError for each thing that is wrong, with its line.
+    """
+    for item in manifest.items:
+
+        def wrong(problem, item=item):
+            refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=item.line, problem=problem))
+
+        for path in item.plan.scans:
+            _attempt(wrong, _check_scan, path)
+        for seeds in (item.plan.seeds, item.plan.hand):
+            if seeds is not None and filled(seeds, item.name).is_file():
+                _attempt(wrong, load_seeds, filled(seeds, item.name), item.plan.photos)
+        needing = [output for output in item.plan.outputs if output.needs_blender]
+        if needing and (blender is None or blender.command is None):
+            what = "render" if needing[0].kind == RENDER else f"write {needing[0].path.suffix}"
+            wrong(
+                Message("{what} needs Blender; run the batch as: blender -b --command reflcolor batch ...", what=what)
+            )
+    _check_outputs(manifest, refuse)
+
+
+def _check_scan(path):
+    if not path.name.lower().endswith(SCAN_SUFFIXES):
+        known = ", ".join(SCAN_SUFFIXES)
+        raise UsageError("{file}: is no scan by its name; expected one of {known}", file=path, known=known)
+    with opened(path, "a scan"):
+        pass
+
+
+def _check_outputs(manifest, refuse):
+    """No result may take the place of an input, and the folder must be one that can be written to."""
+    root, read = manifest.folder.root, set()
+    for item in manifest.items:
+        read.update(path.resolve() for path in (*item.plan.scans, *item.plan.photos))
+    outputs = [
+        (output.option, output.of(item.name).path)
+        for item in manifest.items
+        for output in item.plan.outputs
+        if PLACEHOLDER in str(output.path)
+    ]
+    for option, path in outputs:
+        if path.resolve() in read:
+            refuse(
+                UsageError(
+                    "{file}: {option} {path}: is an input, and would be overwritten; choose another folder",
+                    file=manifest.path,
+                    option=option,
+                    path=path,
+                )
+            )
+    existing = next(folder for folder in (root, *root.absolute().parents) if folder.exists())
+    for fault in output_faults([("output", existing / ".reflcolor-try")], []):
+        refuse(UsageError("{file}: {problem}", file=manifest.path, problem=fault.message))
+
+
+def _attempt(wrong, act, *arguments):
+    try:
+        act(*arguments)
+    except (ReflcolorError, UsageError) as error:
+        wrong(error.message)

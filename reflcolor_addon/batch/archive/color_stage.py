@@ -1,0 +1,80 @@
+"""The stage of a batch that colorizes its items and writes all but rendered pictures."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from ..check import inputs_of
+from ..plan import IMAGE, PLACEHOLDER, RENDER, Output, filled
+from ..plan_document import as_document
+from .costs import memory_of, seconds_of
+from .options import COLOR, KNOWN, UNSHOWN
+from .pairs import NO, UNTESTED, YES, write_pairs
+from .stage import work_on
+from .workers import Task
+
+
+def colorize_items(context, states, photos):
+    """Colorize items.
+
+    Parameters
+    ----------
+    context : Context
+    states : list of State
+    photos : dict of str to list of str
+        The photos of the items that are offered those of the whole batch, by their names.
+    """
+    pieces = []
+    for state in states:
+        plan = color_plan(context, state.item, photos)
+        if plan.seeds is None and not plan.photos:
+            state.outcome, state.left_out = UNSHOWN, [state.item.name]
+            continue
+        inputs = [path for _, path in inputs_of(plan, plan.scans)]
+        inputs += [filled(path, plan.name) for path in (plan.seeds, plan.hand) if path is not None]
+        hashes = context.hashes(inputs)
+        task = Task(
+            name=state.item.name,
+            request={"do": "run", "plan": as_document(plan), "folder": str(context.folder.root), "hashes": hashes},
+            needs_blender=any(output.needs_blender for output in plan.outputs),
+            memory=memory_of(plan.scans),
+            cost=seconds_of(plan.scans, 0 if plan.seeds else len(plan.photos)),
+            log=context.folder.log(state.item.name),
+        )
+        pieces.append((state, context.done.key(COLOR, plan, hashes), task))
+    work_on(context, COLOR, pieces)
+    for state in states:
+        if state.outcome == KNOWN and state.left_out and not _written(context, state):
+            state.outcome = UNSHOWN
+    _write_table(context)
+
+
+def color_plan(context, item, photos):
+    """Return the plan of an item with the photos that it is matched with, and without pictures to render.
+
+    A picture is rendered from the colorized image, so that this is written, too.
+    """
+    plan = item.plan
+    if item.offered:
+        plan = replace(plan, photos=tuple(map(Path, photos.get(item.name, []))))
+    outputs = [output for output in plan.outputs if output.kind != RENDER]
+    if len(outputs) < len(plan.outputs) and not any(output.kind == IMAGE for output in outputs):
+        outputs.insert(0, Output("write", context.folder.result(PLACEHOLDER, ".png"), IMAGE))
+    return replace(plan, outputs=tuple(outputs), skip_unshown=True)
+
+
+def _written(context, state):
+    record = context.done.recall(state.item.name, COLOR)
+    return bool(record and record["outputs"])
+
+
+def _write_table(context):
+    """The table of pairs, of all items that are known by now."""
+    rows = []
+    for item in context.manifest.items:
+        record = context.done.recall(item.name, COLOR) if item.offered else None
+        for pair in (record or {}).get("photos") or []:
+            shows = YES if pair["verified"] else NO if pair["tested"] else UNTESTED
+            photo = context.manifest.photo_name(pair["path"])
+            rows.append((item.name, photo, shows, f"{pair['evidence']:.2f}", pair["note"]))
+    if any(item.offered for item in context.manifest.items):
+        write_pairs(context.folder.pairs, sorted(rows))

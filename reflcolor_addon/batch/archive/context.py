@@ -1,0 +1,80 @@
+"""What all stages of a batch have in common."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ...errors import ReflcolorError
+from ..session import Session
+from .done import Done
+from .fingerprints import Fingerprints
+from .folder import BatchFolder
+from .manifest import Manifest
+from .options import Options
+from .progress_lines import TimeLeft
+from .workers import Task, Workers
+
+
+@dataclass(eq=False, kw_only=True)
+class Context:
+    """One run over a batch.
+
+    Parameters
+    ----------
+    manifest : Manifest
+    options : Options
+    session : Session
+    fingerprints : Fingerprints
+    done : Done
+    workers : Workers
+    """
+
+    manifest: Manifest
+    options: Options
+    session: Session
+    fingerprints: Fingerprints
+    done: Done
+    workers: Workers
+
+    @property
+    def folder(self) -> BatchFolder:
+        """Where all goes."""
+        return self.manifest.folder
+
+    def hashes(self, paths):
+        """Return the hash of each file by its path as text; nothing for one that cannot be read, as its reader says."""
+        found = {}
+        for path in paths:
+            try:
+                found[str(path)] = self.fingerprints.of(path, self.session.cancelled)
+            except ReflcolorError:
+                found[str(path)] = ""
+        return found
+
+    def work(self, tasks: list[Task], finished: Callable, what: str):
+        """Do tasks, and show how far they are.
+
+        Parameters
+        ----------
+        tasks : list of Task
+        finished : callable
+            As `Workers.work`.
+        what : str
+            What is done, for the line of progress.
+        """
+        left, count, done = TimeLeft(sum(task.cost for task in tasks)), len(tasks), 0
+
+        def show(running):
+            share = sum(task.cost * fraction for task, fraction, _ in running)
+            parts = [f"{what} {done} of {count}", left.text(share)]
+            parts += [f"{task.name}: {text}" for task, _, text in running]
+            self.session.progress(left.share(share), "; ".join(filter(None, parts)))
+
+        def counted(task, outcome):
+            nonlocal done
+            stop = finished(task, outcome)
+            if task not in tasks:
+                left.add(task.cost)
+                done += 1
+            return stop
+
+        self.workers.work(tasks, counted, show)

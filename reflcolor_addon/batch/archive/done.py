@@ -1,0 +1,67 @@
+"""What was done before: a record for each item and stage, and whether it still holds."""
+
+from pathlib import Path
+
+from ..plan_document import as_document
+from .fingerprints import digest_of, program_digest
+
+KIND = "done"
+
+
+class Done:
+    """The records of a batch.
+
+    Parameters
+    ----------
+    folder : BatchFolder
+    fingerprints : Fingerprints
+    """
+
+    def __init__(self, folder, fingerprints):
+        self._folder, self._fingerprints = folder, fingerprints
+
+    def key(self, stage, plan, hashes):
+        """Return what tells whether a piece of work is the same: its inputs' hashes, its settings, the program.
+
+        Parameters
+        ----------
+        stage : str
+        plan : Plan
+        hashes : dict of str to str
+            Of every input, by its path.
+        """
+        return digest_of([program_digest(), stage, as_document(plan), sorted(hashes.items())])
+
+    def record(self, name, stage, key, outcome):
+        """Keep that something is done: last of all, when its outputs are there."""
+        outputs = {path: [*_state(Path(path)), self._fingerprints.of(path)] for path in outcome["written"]}
+        kept = {name: outcome.get(name) for name in ("warnings", "left_out", "photos", "seconds", "peak_bytes")}
+        self._folder.remember(KIND, f"{name} {stage}", {"key": key, "outputs": outputs} | kept)
+
+    def recall(self, name, stage, key=None):
+        """Return the record of what is done and whole, of this key if one is given; else None."""
+        record = self._folder.recall(KIND, f"{name} {stage}")
+        if record is None or (key is not None and record.get("key") != key):
+            return None
+        outputs = record.get("outputs")
+        if not isinstance(outputs, dict) or not all(self._is_whole(path, told) for path, told in outputs.items()):
+            return None
+        return record
+
+    def forget(self, name, stage):
+        """Drop a record, before what it tells of is written again."""
+        self._folder.state(KIND, f"{name} {stage}.json").unlink(missing_ok=True)
+
+    def _is_whole(self, path, told):
+        path = Path(path)
+        try:
+            size, mtime = _state(path)
+            # A copied folder has other times; then its bytes tell.
+            return size == told[0] and (mtime == told[1] or self._fingerprints.of(path) == told[2])
+        except (OSError, LookupError, TypeError):
+            return False
+
+
+def _state(path):
+    found = path.stat()
+    return found.st_size, found.st_mtime_ns

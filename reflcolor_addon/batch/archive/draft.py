@@ -1,0 +1,131 @@
+"""Drafts a manifest from what lies in a folder."""
+
+import os
+from collections import Counter
+from pathlib import Path
+
+from ...errors import ReflcolorError, UsageError
+from ...files.images import IMAGE_SUFFIXES
+from ...files.readers import SCAN_SUFFIXES
+from ..paths import scan_files
+from .folder import STATE
+
+_HEAD = """\
+# Drafted by reflcolor manifest. Look it through, change what is wrong, then run:
+#   blender -b --command reflcolor batch {name} --check
+#   blender -b --command reflcolor batch {name}
+# Paths are seen from this file's folder; * stands for any name, ** for any folders.
+format = "reflcolor-batch"
+version = 1
+
+# Everything that is made goes into this folder.
+output = {output}
+
+# What is written of each scan: png (colorized image), glb, ply, usd, blend. The last two are made in Blender.
+write = ["png", "glb"]
+
+# A rendered picture of each scan; needs Blender.
+render = false
+"""
+_SCANS = "\n# The scans.\nscans = [\n{lines}]\n"
+_PHOTOS = """
+# Photos. Which of them shows which scan is found out; the table pairs.csv in the output folder tells it afterwards.
+photos = [
+{lines}]
+"""
+_SEEDS = "\n# Seeds that lie beside their scan are used as they are.\n"
+_ONE = """\
+[[scan]]
+file = {file}
+seeds = {seeds}
+"""
+
+
+def draft(folder, path):
+    """Return the text of a manifest for all scans and photos below a folder.
+
+    Parameters
+    ----------
+    folder : Path
+    path : Path
+        Where the manifest is going to lie.
+
+    Raises
+    ------
+    UsageError
+        If it holds no scan, or is no folder.
+    """
+    if not folder.is_dir():
+        raise UsageError("{folder}: is no folder; name the one that holds the scans", folder=folder)
+    files = sorted(_files(folder), key=lambda file: file.as_posix())
+    scans = [file for file in files if file.name.lower().endswith(SCAN_SUFFIXES)]
+    if not scans:
+        raise UsageError(
+            "{folder}: holds no scan; expected files that end in one of {known}",
+            folder=folder,
+            known=", ".join(SCAN_SUFFIXES),
+        )
+    parts = set()
+    for scan in scans:
+        try:
+            parts.update(file.resolve() for file in scan_files(scan) if file != scan)
+        except (OSError, ReflcolorError):
+            continue
+    photos = [file for file in files if file.suffix.lower() in IMAGE_SUFFIXES and file.resolve() not in parts]
+    seen_from = path.absolute().parent
+
+    def named(file):
+        return _quoted(Path(os.path.relpath(file, seen_from)).as_posix())
+
+    def patterns(chosen):
+        """As few patterns as cover just the chosen files; a name by itself where it is the only one."""
+        folders = Counter((file.parent, _suffix(file)) for file in chosen)
+        lines = []
+        for (parent, suffix), count in folders.items():
+            same = [file for file in chosen if (file.parent, _suffix(file)) == (parent, suffix)]
+            others = [
+                file for file in files if file.parent == parent and file.name.endswith(suffix) and file not in same
+            ]
+            if count > 1 and not others and not set("*?[") & set(str(parent)):
+                lines.append(f"  {named(parent / f'*{suffix}')},  # {count} files\n")
+            else:
+                lines += [f"  {named(file)},\n" for file in same]
+        return "".join(lines)
+
+    text = _HEAD.format(name=path.name, output=_quoted("colored")) + _SCANS.format(lines=patterns(scans))
+    if photos:
+        text += _PHOTOS.format(lines=patterns(photos))
+    seeds = {scan: _seeds_of(scan) for scan in scans}
+    tables = [_ONE.format(file=named(scan), seeds=named(own)) for scan, own in seeds.items() if own is not None]
+    return text + (_SEEDS + "\n".join(tables) if tables else "")
+
+
+def _files(folder):
+    """All files below a folder, but for hidden ones and what batches have made."""
+    for root, folders, names in os.walk(folder):
+        here = Path(root)
+        folders[:] = sorted(name for name in folders if not name.startswith(".") and not (here / name / STATE).is_dir())
+        yield from (here / name for name in names if not name.startswith(".") and (here / name).is_file())
+
+
+def _suffix(file):
+    lower = file.name.lower()
+    known = next((suffix for suffix in SCAN_SUFFIXES if lower.endswith(suffix)), file.suffix)
+    return file.name[-len(known) :] if known else ""
+
+
+def _seeds_of(scan):
+    """The file of seeds that lies beside a scan and has its name."""
+    stem = scan.name[: -len(_suffix(scan))]
+    for name in (f"{stem}.seeds.json", f"{scan.name}.seeds.json"):
+        if (scan.parent / name).is_file():
+            return scan.parent / name
+    return None
+
+
+def _quoted(text):
+    """A text as TOML writes it."""
+    if "'" not in text and all(char.isprintable() for char in text) and ("\\" in text or '"' in text):
+        return f"'{text}'"
+    escaped = "".join(char if char.isprintable() and char not in '"\\' else f"\\U{ord(char):08X}" for char in text)
+    return f'"{escaped}"'

@@ -1,0 +1,61 @@
+"""How long a batch will take, and how much memory, told before it begins."""
+
+from ...files.memory import readable
+from ...messages import Message
+from ..plan import RENDER
+from .costs import SECONDS_PER_LOOK, memory_of, pixels_of, seconds_of
+from .looks import MOST_SCANS
+from .progress_lines import duration
+
+_SECONDS_TO_RENDER = 8.0
+
+
+def estimate(manifest, options):
+    """Return what is to be expected, one line each.
+
+    Parameters
+    ----------
+    manifest : Manifest
+    options : Options
+
+    Returns
+    -------
+    list of Message
+    """
+    items = options.chosen(manifest.items)
+    pixels = sum(pixels_of(item.plan.scans) for item in items)
+    lines = [
+        Message(
+            "{count} scans of about {pixels:.1f} megapixels together, {photos} photos",
+            count=sum(len(item.plan.scans) for item in items),
+            pixels=pixels / 1e6,
+            photos=len({path for item in items for path in item.plan.photos}),
+        )
+    ]
+    offered = sum(item.offered for item in manifest.items)
+    # Each photo is matched with few scans, whatever the number of scans.
+    pairs = len(manifest.photos) * min(MOST_SCANS, offered) / max(offered, 1)
+    seconds = sum(
+        seconds_of(item.plan.scans, pairs if item.offered else 0 if item.plan.seeds else len(item.plan.photos))
+        + SECONDS_PER_LOOK * len(manifest.photos) * item.offered
+        + _SECONDS_TO_RENDER * any(output.kind == RENDER for output in item.plan.outputs)
+        for item in items
+    )
+    needs = sorted((memory_of(item.plan.scans) for item in items), reverse=True)
+    lines.append(
+        Message(
+            "about {time} with {workers} processes, and at most {memory} of memory",
+            time=duration(seconds / options.workers),
+            workers=options.workers,
+            memory=readable(min(sum(needs[: options.workers]), max(options.memory, needs[0]))),
+        )
+    )
+    if needs[0] > options.memory:
+        lines.append(
+            Message(
+                "one scan alone needs about {need}, more than the {memory} that may be taken; it runs alone",
+                need=readable(needs[0]),
+                memory=readable(options.memory),
+            )
+        )
+    return lines

@@ -1,0 +1,71 @@
+"""Hashes of files and of the program itself; a file that did not change is not hashed again."""
+
+import hashlib
+import json
+from functools import cache
+from pathlib import Path
+
+from ...report.report import fingerprint
+from ...version import __version__
+
+_NAME = "hashes"
+
+
+class Fingerprints:
+    """SHA-256 of files, remembered by their size and time.
+
+    Parameters
+    ----------
+    folder : BatchFolder
+    """
+
+    def __init__(self, folder):
+        self._folder = folder
+        known = folder.recall("", _NAME) or {}
+        self._known = {path: entry for path, entry in known.items() if isinstance(entry, list) and len(entry) == 3}
+        self._changed = False
+
+    def of(self, path, cancelled=None):
+        """Return the hash of a file.
+
+        Raises
+        ------
+        ReflcolorError
+            If it cannot be read.
+        Cancelled
+        """
+        path = Path(path)
+        try:
+            found = path.stat()
+        except OSError:
+            found = None
+        key = str(path.absolute())
+        state = None if found is None else [found.st_size, found.st_mtime_ns]
+        entry = self._known.get(key)
+        if entry is None or entry[:2] != state:
+            entry = [*(state or [0, 0]), fingerprint(path, cancelled)["sha256"]]
+            self._known[key] = entry
+            self._changed = True
+        return entry[2]
+
+    def save(self):
+        """Keep what is known for the next time."""
+        if self._changed:
+            self._folder.remember("", _NAME, self._known)
+            self._changed = False
+
+
+@cache
+def program_digest():
+    """Return a hash of the version and of all code that results depend on."""
+    core = Path(__file__).resolve().parents[2]
+    digest = hashlib.sha256(__version__.encode())
+    for path in sorted(core.rglob("*.py"), key=lambda path: path.relative_to(core).as_posix()):
+        digest.update(path.relative_to(core).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def digest_of(document):
+    """Return the hash of what JSON can hold."""
+    return hashlib.sha256(json.dumps(document, sort_keys=True, allow_nan=False).encode()).hexdigest()

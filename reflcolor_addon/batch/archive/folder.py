@@ -1,0 +1,114 @@
+"""The folder of a batch: where its results go, what was done already, and who works on what."""
+
+import json
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...errors import OutputError
+from ...files.atomic import written_atomically
+from ...files.locks import try_lock
+from ...report.report import REPORT_OPTION
+from ..plan import PREVIEW, REPORT, Output
+
+STATE = "batch-state"
+"""Holds what a batch remembers; it may be deleted, then everything is done again."""
+
+
+@dataclass(frozen=True)
+class BatchFolder:
+    """The folder of a batch.
+
+    Parameters
+    ----------
+    root : Path
+    """
+
+    root: Path
+
+    def result(self, label, suffix):
+        """Where a result of a scan goes."""
+        return self.root / f"{label}{suffix}"
+
+    def render(self, label):
+        """Where the rendered picture of a scan goes."""
+        return self.root / f"{label} render.png"
+
+    def records(self, label):
+        """The outputs that tell of a scan: its preview and its report, which is the last of all."""
+        reports = self.root / "reports"
+        return Output("preview", reports / f"{label}.jpg", PREVIEW), Output(
+            REPORT_OPTION, reports / f"{label}.json", REPORT
+        )
+
+    def log(self, name):
+        """Where everything goes that is said while an item is worked on."""
+        return self.root / "logs" / f"{name}.log"
+
+    @property
+    def pairs(self):
+        """The table of photos and the scans that they show."""
+        return self.root / "pairs.csv"
+
+    @property
+    def page(self):
+        """The report of the whole batch."""
+        return self.root / "report.html"
+
+    @property
+    def table(self):
+        """The same as a table."""
+        return self.root / "report.csv"
+
+    def state(self, *parts):
+        """A path among what the batch remembers."""
+        return self.root.joinpath(STATE, *parts)
+
+    def make(self):
+        """Make the folders.
+
+        Raises
+        ------
+        OutputError
+            If they cannot be made.
+        """
+        for folder in (self.root, self.root / "reports", self.root / "logs"):
+            _make(folder)
+        for name in ("done", "items", "locks", "matched", "looks"):
+            _make(self.state(name))
+
+    @contextmanager
+    def claimed(self, name):
+        """Keep an item from every other batch while the block runs; gives False where another has it.
+
+        The lock ends with the process, however that ends.
+        """
+        path = self.state("locks", name)
+        try:
+            file = path.open("ab")
+        except OSError as error:
+            raise OutputError("{file}: cannot be written ({reason})", file=path, reason=error.strerror) from error
+        with file:
+            # Where a file system knows no locks, nobody is kept out.
+            yield try_lock(file) is not False
+
+    def remember(self, kind, name, document):
+        """Keep a document of JSON."""
+        with written_atomically(self.state(kind, f"{name}.json")) as temporary:
+            temporary.write_text(json.dumps(document, allow_nan=False), encoding="utf-8")
+
+    def recall(self, kind, name):
+        """Return a document that was kept; None where there is none, or none that can be read."""
+        try:
+            document = json.loads(self.state(kind, f"{name}.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError, RecursionError):
+            return None
+        return document if isinstance(document, dict) else None
+
+
+def _make(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = error.strerror or error
+        raise OutputError("{folder}: the folder cannot be made ({reason})", folder=folder, reason=reason) from error

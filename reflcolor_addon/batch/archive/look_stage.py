@@ -1,0 +1,60 @@
+"""The first stage of a batch: which of its photos are worth matching with which of its scans."""
+
+from ...messages import Message
+from .costs import memory_of
+from .looks import candidates
+from .workers import Task
+
+
+def photos_of_items(context, items, known_pairs):
+    """Look at all photos of a batch for some of its items.
+
+    Parameters
+    ----------
+    context : Context
+    items : list of Item
+        Those that are offered the photos of the whole batch.
+    known_pairs : dict of (str, str) to bool
+        What a person says of an item's name and a photo's; see `pairs.read_pairs`.
+
+    Returns
+    -------
+    dict of str to list of str
+        For each item's name the paths of its photos: those that a person names, then what looks best.
+    """
+    scores, problems = {}, {}
+    photos = {str(path): context.manifest.photo_name(path) for path in context.manifest.photos}
+    hashes = context.hashes(photos)
+
+    def told(item, shows):
+        return [path for path, name in photos.items() if known_pairs.get((item.name, name)) is shows]
+
+    def finished(task, outcome):
+        # What is wrong with a scan is said when its own turn comes.
+        found = outcome["found"] if outcome["done"] else {"scores": {}, "problems": {}}
+        scores[task.name] = found["scores"]
+        problems.update(found["problems"])
+
+    tasks = [_task(context, item, told(item, None), hashes) for item in items]
+    context.work([task for task in tasks if task.request["photos"]], finished, "Looked at photos for")
+    for path, problem in problems.items():
+        context.session.warnings.append(Message("{photo}: {problem}", photo=photos[path], problem=problem))
+    chosen = candidates(scores)
+    return {item.name: [*told(item, True), *chosen.get(item.name, [])] for item in items}
+
+
+def _task(context, item, photos, hashes):
+    scans = [str(path) for path in item.plan.scans]
+    return Task(
+        name=item.name,
+        request={
+            "do": "look",
+            "folder": str(context.folder.root),
+            "scans": scans,
+            "photos": photos,
+            "hashes": context.hashes(scans) | {path: hashes[path] for path in photos},
+        },
+        memory=memory_of(item.plan.scans),
+        cost=1.0 + len(photos),
+        log=context.folder.log(f"{item.name} look"),
+    )

@@ -1,0 +1,384 @@
+"""The manifest of a batch: a TOML file that names scans, photos, seeds, settings and outputs.
+
+What is wrong with it is collected, so that all of it can be said at once, each with its line.
+"""
+
+import tomllib
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from pathlib import Path
+
+from ...errors import SettingsError, UsageError
+from ...files.images import IMAGE_SUFFIXES
+from ...messages import Message
+from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
+from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, default_settings, filled
+from ..read import distinct, safe_label
+from .folder import BatchFolder
+from .toml_lines import TomlLines
+
+FORMAT, VERSION = "reflcolor-batch", 1
+MOST_BYTES = 64 << 20
+_RESULTS = tuple(suffix.removeprefix(".") for suffix in RESULT_SUFFIXES)
+_OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
+_OF_EACH = ("write", "render", "preset", "settings", "seeds")
+_OF_ONE = ("file", "name", "site", "scan", "photos", "hand", "skip")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Item:
+    """One piece of a batch: the scans of one file, or those of one site, which are matched together.
+
+    Parameters
+    ----------
+    name : str
+        What its files are called; no other item's is the same, not even in capitals.
+    plan : Plan
+    offered : bool
+        Whether its photos are those of the whole batch, of which has to be found out which ones show it.
+    line : int
+        Where the manifest names it.
+    """
+
+    name: str
+    plan: Plan
+    offered: bool
+    line: int
+
+    @property
+    def needs_blender(self):
+        """Whether one of its outputs can only be written in Blender."""
+        return any(output.needs_blender for output in self.plan.outputs)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Manifest:
+    """A whole batch.
+
+    Parameters
+    ----------
+    path : Path
+        Of the manifest.
+    folder : BatchFolder
+        Where all its files go.
+    items : tuple of Item
+    photos : tuple of Path
+        Those of the whole batch.
+    pairs : Path or None
+        A table that says which photos show which scans, as far as a person knows.
+    """
+
+    path: Path
+    folder: BatchFolder
+    items: tuple[Item, ...]
+    photos: tuple[Path, ...]
+    pairs: Path | None
+
+    def photo_name(self, path):
+        """Return a photo's path as the manifest's folder sees it, with slashes; so the table of pairs names it."""
+        try:
+            return Path(path).relative_to(self.path.parent).as_posix()
+        except ValueError:
+            return Path(path).as_posix()
+
+
+def load_manifest(path, refuse):
+    """Read a manifest.
+
+    Parameters
+    ----------
+    path : Path
+    refuse : callable
+        Given a UsageError for each thing that is wrong. Without any the manifest can be worked on.
+
+    Returns
+    -------
+    Manifest or None
+        None where the file cannot be read as TOML.
+    """
+    try:
+        size = path.stat().st_size
+        if not path.is_file() or size > MOST_BYTES:
+            raise OSError(0, "not a text file of at most 64 MB")
+        text = path.read_bytes().decode("utf-8-sig")
+        document = tomllib.loads(text)
+    except OSError as error:
+        refuse(UsageError("{file}: cannot be read ({reason})", file=path, reason=error.strerror or error))
+        return None
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        refuse(UsageError("{file}: line {line}: is not UTF-8; save it as UTF-8", file=path, line=line))
+        return None
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        refuse(UsageError("{file}: is not TOML: {reason}", file=path, reason=str(error)))
+        return None
+    return _Reader(path, document, TomlLines(text), refuse).manifest()
+
+
+class _Table:
+    """A table of the manifest: its values by name, of the right type; what is wrong is said with its line."""
+
+    def __init__(self, values, at, reader):
+        self._values, self.at, self._reader = values, at, reader
+
+    def known(self, names):
+        for name in self._values:
+            if name not in names:
+                near = get_close_matches(name, names, 1)
+                hint = Message("; did you mean {name}?", name=near[0]) if near else ""
+                self.refuse(name, "unknown key {key!r}{hint}", key=name, hint=hint)
+
+    def refuse(self, key, template, /, **values):
+        path = self.at if key is None else (*self.at, *(key if isinstance(key, tuple) else (key,)))
+        self._reader.refuse_at(path, template, **values)
+
+    def __contains__(self, key):
+        return key in self._values
+
+    def get(self, key, kind, default=None):
+        """A value of one type; the default where it is missing or of another one."""
+        value = self._values.get(key)
+        if value is None:
+            return default
+        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+            names = {str: "a text in quotes", bool: "true or false", int: "a whole number", dict: "a table"}
+            self.refuse(key, "{key}: expected {expected}, found {found!r}", key=key, expected=names[kind], found=value)
+            return default
+        return value
+
+    def texts(self, key):
+        """A list of texts, or one text as a list, each with its place; None where it is missing."""
+        value = self._values.get(key)
+        if value is None:
+            return None
+        if isinstance(value, str):
+            return [((key,), value)]
+        if not isinstance(value, list):
+            self.refuse(key, "{key}: expected a list of texts, found {found!r}", key=key, found=value)
+            return []
+        for place, text in enumerate(value):
+            if not isinstance(text, str):
+                self.refuse((key, place), "{key}: expected a text in quotes, found {found!r}", key=key, found=text)
+        return [((key, place), text) for place, text in enumerate(value) if isinstance(text, str)]
+
+
+class _Reader:
+    def __init__(self, path, document, lines, refuse):
+        self._path, self._lines, self._refuse = path, lines, refuse
+        self._whole = _Table(document, (), self)
+        self._folder = None
+        self._entries = {}
+
+    def refuse_at(self, at, template, /, **values):
+        line = self._lines.of(*at)
+        self._refuse(UsageError("{file}: line {line}: " + template, file=self._path, line=line, **values))
+
+    def manifest(self):
+        whole = self._whole
+        whole.known((*_OF_ALL, *_OF_EACH, "scan"))
+        found = whole.get("format", str, ""), whole.get("version", int, 0)
+        if found != (FORMAT, VERSION):
+            whole.refuse(
+                "format" if "format" in whole else None,
+                "expected format = {format} and version = {version}",
+                format=f'"{FORMAT}"',
+                version=VERSION,
+            )
+        output = whole.get("output", str)
+        if output is None and "output" not in whole:
+            whole.refuse(None, "output: is missing; name the folder for the results")
+        self._folder = BatchFolder(self._path.parent / (output or "."))
+        pool = self._files(whole, "photos", "photo") or []
+        pool = list(dict.fromkeys(path for _, path in pool))
+        pairs = whole.get("pairs", str)
+        if pairs is not None and not (self._path.parent / pairs).is_file():
+            whole.refuse("pairs", "pairs: there is no file {path}", path=pairs)
+        items = self._items(pool)
+        if not items:
+            whole.refuse("scans" if "scans" in whole else None, "no scan is named; give scans = [...]")
+        return Manifest(
+            path=self._path,
+            folder=self._folder,
+            items=tuple(items),
+            photos=tuple(pool),
+            pairs=None if pairs is None else self._path.parent / pairs,
+        )
+
+    def _files(self, table, key, what):
+        """(place, path) of the files that a list of names and patterns means; None where there is no list."""
+        texts = table.texts(key)
+        if texts is None:
+            return None
+        found = []
+        for place, text in texts:
+            paths = self._matching(text)
+            if not paths:
+                table.refuse(place, "{what} {text!r}: there is no such file", what=what, text=text)
+            if what == "photo":
+                for path in paths:
+                    if path.suffix.lower() not in IMAGE_SUFFIXES:
+                        table.refuse(
+                            place,
+                            "photo {path}: is no image by its name; expected one of {known}",
+                            path=path,
+                            known=", ".join(IMAGE_SUFFIXES),
+                        )
+            found += [((*table.at, *place), path) for path in paths]
+        return found
+
+    def _matching(self, text):
+        """The files that a name or a pattern means."""
+        folder = self._path.parent
+        try:
+            # A name that is there is taken as it is: it may hold brackets.
+            if (folder / text).is_file():
+                return [folder / text]
+            pattern = Path(text)
+            if pattern.is_absolute():
+                folder, pattern = Path(pattern.anchor), pattern.relative_to(pattern.anchor)
+            return sorted(path for path in folder.glob(str(pattern)) if path.is_file())
+        except (OSError, ValueError):  # a null character, an empty pattern
+            return []
+
+    def _items(self, pool):
+        places = {}
+        for at, path in self._files(self._whole, "scans", "scan") or []:
+            places.setdefault(path, at)
+        tables = self._scan_tables()
+        entries = {path: [] for path in places}
+        for table in tables:
+            for _, path in self._files(table, "file", "scan") or []:
+                entries.setdefault(path, []).append(table)
+                places[path] = table.at
+        of_each = self._whole
+        groups, skipped = {}, set()
+        for path, own in entries.items():
+            chain = [of_each, *own]
+            if _last(own, "skip", bool, False):
+                skipped.add(path)
+                continue
+            site = _last(own, "site", str, None)
+            key = ("site", site) if site else ("file", str(path))
+            groups.setdefault(key, []).append((path, chain))
+        names = []
+        for (kind, key), members in groups.items():
+            path, chain = members[0]
+            stem = (
+                path.name.removesuffix("".join(path.suffixes[-2:])) if path.name.endswith(".scan.json") else path.stem
+            )
+            names.append(safe_label(key if kind == "site" else _last(chain[1:], "name", str, None) or stem))
+        names = distinct(names, joint="_", key=str.casefold)
+        return [self._item(name, members, places, pool) for name, members in zip(names, groups.values(), strict=True)]
+
+    def _scan_tables(self):
+        found = self._whole._values.get("scan", [])
+        if not isinstance(found, list) or not all(isinstance(values, dict) for values in found):
+            self._whole.refuse("scan", "scan: expected [[scan]] tables")
+            return []
+        tables = [_Table(values, ("scan", place), self) for place, values in enumerate(found)]
+        for table in tables:
+            table.known((*_OF_ONE, *_OF_EACH))
+            if "file" not in table:
+                table.refuse(None, "file: is missing; say which scan is meant")
+        return tables
+
+    def _item(self, name, members, places, pool):
+        path, chain = members[0]
+        own = chain[1:]
+        photos = _last_files(self, own)
+        seeds = self._seeds(chain, name, photos if photos is not None else pool)
+        hand = _last(own, "hand", str, None)
+        offered = photos is None and seeds is None and bool(pool)
+        photos = pool if photos is None else photos
+        place = places[path]
+        if seeds is None and not photos:
+            self.refuse_at(place, "{path}: has neither seeds nor photos; give one of them", path=path)
+        outputs = self._outputs(chain)
+        plan = Plan(
+            scans=tuple(path for path, _ in members),
+            wanted=_last(own, "scan", str, None) or ("all" if len(members) == 1 else None),
+            name=name,
+            seeds=seeds,
+            hand=None if hand is None else self._path.parent / hand,
+            photos=tuple(photos),
+            settings=self._settings(chain),
+            outputs=outputs,
+        )
+        return Item(name=name, plan=plan, offered=offered, line=self._lines.of(*place))
+
+    def _seeds(self, chain, name, photos):
+        """The seeds of an item; one that the manifest names for all scans need not be there where photos are."""
+        for table in reversed(chain):
+            text = table.get("seeds", str)
+            if text is None:
+                continue
+            path = self._path.parent / text
+            there = PLACEHOLDER in text and filled(path, name).is_file()
+            if there or (PLACEHOLDER not in text and path.is_file()):
+                return path
+            if table is not self._whole or not photos:
+                table.refuse("seeds", "seeds {text!r}: there is no file {path}", text=text, path=filled(path, name))
+            return None
+        return None
+
+    def _outputs(self, chain):
+        outputs = []
+        for table in reversed(chain):
+            texts = table.texts("write")
+            if texts is None:
+                continue
+            for place, text in texts:
+                if text.removeprefix(".").lower() not in _RESULTS:
+                    table.refuse(place, "write {text!r}: expected one of {known}", text=text, known=", ".join(_RESULTS))
+                else:
+                    outputs.append("." + text.removeprefix(".").lower())
+            break
+        else:
+            outputs.append(".png")
+        found = [
+            Output("write", self._folder.result(PLACEHOLDER, suffix), RESULT_SUFFIXES[suffix])
+            for suffix in dict.fromkeys(outputs)
+        ]
+        if _last(chain, "render", bool, False):
+            found.append(Output("render", self._folder.render(PLACEHOLDER), RENDER))
+        return (*found, *self._folder.records(PLACEHOLDER))
+
+    def _settings(self, chain):
+        preset = _last(chain, "preset", str, DEFAULT_PRESET)
+        name = next((name for name in PRESETS if name.casefold() == preset.casefold()), None)
+        if name is None:
+            table = next(table for table in reversed(chain) if "preset" in table)
+            table.refuse("preset", "preset {found!r}: expected one of {known}", found=preset, known=", ".join(PRESETS))
+        settings = default_settings(name or DEFAULT_PRESET)
+        for table in chain:
+            for key, value in table.get("settings", dict, {}).items():
+                settings = self._with_setting(table, settings, key, value)
+        return settings
+
+    def _with_setting(self, table, settings, key, value):
+        if key not in SETTINGS:
+            near = get_close_matches(key, SETTINGS, 1)
+            hint = Message("; did you mean {name}?", name=near[0]) if near else ""
+            table.refuse(("settings", key), "unknown setting {key!r}{hint}", key=key, hint=hint)
+            return settings
+        try:
+            value = SETTINGS[key].named(value) if isinstance(value, str) else value
+            return replace(settings, **{key: value})
+        except SettingsError as error:
+            table.refuse(("settings", key), "{problem}", problem=error.message)
+            return settings
+
+
+def _last(tables, key, kind, default):
+    """The value of the last table that has one."""
+    for table in reversed(tables):
+        if key in table:
+            return table.get(key, kind, default)
+    return default
+
+
+def _last_files(reader, tables):
+    for table in reversed(tables):
+        if "photos" in table:
+            return list(dict.fromkeys(path for _, path in reader._files(table, "photos", "photo")))
+    return None

@@ -1,0 +1,69 @@
+"""How a batch is worked on, and what became of its items."""
+
+from dataclasses import dataclass, field
+
+from .manifest import Item
+
+LOOK, COLOR, RENDERING = "look", "color", "render"
+STAGES = (LOOK, COLOR, RENDERING)
+DONE, FAILED, UNSHOWN, KNOWN, ELSEWHERE, OPEN = "done", "failed", "unshown", "known", "elsewhere", "open"
+"""What became of an item: done now; not done; no photo shows it; done before; another batch has it; not begun."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """How a batch is worked on.
+
+    Parameters
+    ----------
+    stages : tuple of str
+        Some of `STAGES`.
+    first, last : int, optional
+        Places of the first and the last item, from 1; all without.
+    resume : bool
+        Leave out what was done before and did not change.
+    keep_going : bool
+        Go on with the others after one has failed.
+    workers : int
+        How many processes.
+    memory : int
+        Bytes that they may take together.
+    tries : int
+        How often something is tried that may pass, such as a full disk.
+    wait_s : float
+        How long to wait before it is tried again.
+    """
+
+    stages: tuple[str, ...] = STAGES
+    first: int | None = None
+    last: int | None = None
+    resume: bool = False
+    keep_going: bool = False
+    workers: int
+    memory: int
+    tries: int = 3
+    wait_s: float = 20.0
+
+    def chosen(self, items):
+        """Return the items to work on."""
+        return list(items)[(self.first or 1) - 1 : self.last]
+
+
+@dataclass(eq=False)
+class State:
+    """An item with what became of it.
+
+    Parameters
+    ----------
+    item : Item
+    outcome : str
+    error : str
+        Why it failed.
+    left_out : list of str
+        Scans of it that no photo shows.
+    """
+
+    item: Item
+    outcome: str = OPEN
+    error: str = ""
+    left_out: list[str] = field(default_factory=list)

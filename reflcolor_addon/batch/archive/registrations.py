@@ -1,0 +1,33 @@
+"""Remembers which photo shows which scan, and from where: no pair is worked on twice."""
+
+from ...matching.registration.stored import as_document, from_document
+from .fingerprints import digest_of, program_digest
+
+KIND = "matched"
+
+
+class Registrations:
+    """What `Session.registrations` asks for: registrations kept in the folder of a batch, by the hashes of the files.
+
+    Parameters
+    ----------
+    folder : BatchFolder
+    hashes : dict of str to str
+        The hash of every scan's and photo's file, by its path as text.
+    """
+
+    def __init__(self, folder, hashes):
+        self._folder, self._hashes = folder, hashes
+
+    def __call__(self, job, photo, register):
+        """Return the `Registration` of a photo on a scan; ``register()`` finds it where it is not known yet."""
+        key = digest_of([program_digest(), self._hashes[str(job.path)], job.index, self._hashes[str(photo)]])
+        known = self._folder.recall(KIND, key)
+        if known is not None:
+            try:
+                return from_document(known["registration"])
+            except (KeyError, ValueError):
+                pass  # written by a program that died, or by hand: found anew
+        registration = register()
+        self._folder.remember(KIND, key, {"registration": as_document(registration)})
+        return registration

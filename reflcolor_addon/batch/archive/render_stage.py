@@ -1,0 +1,59 @@
+"""The stage of a batch that renders pictures of colorized items, in Blender."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from ...report.amended import add_output
+from ..plan import PLACEHOLDER, RENDER
+from ..plan_document import as_document
+from .costs import memory_of, seconds_of
+from .options import COLOR, FAILED, RENDERING, UNSHOWN
+from .stage import work_on
+from .workers import Task
+
+
+def render_items(context, states):
+    """Render the items whose plans ask for it, and that are colorized.
+
+    Parameters
+    ----------
+    context : Context
+    states : list of State
+    """
+    pieces = []
+    for state in states:
+        plan = render_plan(context, state.item)
+        colored = context.done.recall(state.item.name, COLOR)
+        if plan is None or colored is None or state.outcome in (FAILED, UNSHOWN):
+            continue
+        images = [path for path in colored["outputs"] if path.endswith(".png")]
+        if not images:
+            continue
+        hashes = context.hashes([*plan.scans, *images])
+        task = Task(
+            name=state.item.name,
+            request={"do": "run", "plan": as_document(plan), "folder": str(context.folder.root), "hashes": hashes},
+            needs_blender=True,
+            memory=memory_of(plan.scans),
+            cost=seconds_of(plan.scans, 1),
+            log=context.folder.log(f"{state.item.name} render"),
+        )
+        pieces.append((state, context.done.key(RENDERING, plan, hashes), task))
+
+    def rendered(state, outcome):
+        for path in map(Path, outcome["written"]):
+            label = path.name.removesuffix(context.folder.render("").name)
+            report = context.folder.records(label)[1].path
+            if report.is_file():
+                add_output(report, "--render", path)
+
+    work_on(context, RENDERING, pieces, done=rendered)
+
+
+def render_plan(context, item):
+    """Return the plan that renders an item from its colorized images; None where nothing is to be rendered."""
+    outputs = tuple(output for output in item.plan.outputs if output.kind == RENDER)
+    if not outputs:
+        return None
+    colors = context.folder.result(PLACEHOLDER, ".png")
+    return replace(item.plan, outputs=outputs, seeds=None, hand=None, photos=(), colors=colors)

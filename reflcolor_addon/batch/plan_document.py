@@ -1,0 +1,40 @@
+"""A plan as JSON: so it goes from one process to another, and so it is told whether it was done already."""
+
+from pathlib import Path
+
+from ..settings import Settings
+from .plan import Output, Plan
+
+
+def as_document(plan):
+    """Return a `Plan` as what JSON can hold."""
+    return {
+        "scans": [str(path) for path in plan.scans],
+        "outputs": [[output.option, str(output.path), output.kind] for output in plan.outputs],
+        "settings": plan.settings.as_dict(),
+        "wanted": plan.wanted,
+        "name": plan.name,
+        "seeds": None if plan.seeds is None else str(plan.seeds),
+        "hand": None if plan.hand is None else str(plan.hand),
+        "photos": [str(path) for path in plan.photos],
+        "colors": None if plan.colors is None else str(plan.colors),
+        "outside_files": plan.outside_files,
+        "skip_unshown": plan.skip_unshown,
+    }
+
+
+def from_document(document):
+    """Return the `Plan` that `as_document` described."""
+    return Plan(
+        scans=tuple(map(Path, document["scans"])),
+        outputs=tuple(Output(option, Path(path), kind) for option, path, kind in document["outputs"]),
+        settings=Settings(**document["settings"]),
+        wanted=document["wanted"],
+        name=document["name"],
+        seeds=None if document["seeds"] is None else Path(document["seeds"]),
+        hand=None if document["hand"] is None else Path(document["hand"]),
+        photos=tuple(map(Path, document["photos"])),
+        colors=None if document["colors"] is None else Path(document["colors"]),
+        outside_files=document["outside_files"],
+        skip_unshown=document["skip_unshown"],
+    )

@@ -1,0 +1,230 @@
+"""The report of a whole batch: one page that needs nothing but a browser, and one table."""
+
+import base64
+import csv
+import io
+from html import escape
+from importlib.resources import files
+from string import Template
+
+from ..errors import ReflcolorError
+from ..files.atomic import written_atomically
+from ..files.gate import contents
+from ..files.json_files import read_json
+from ..version import __version__
+from ..view.colormaps import UNKNOWN
+from ..view.preview import GUESS, INFERRED, OBSERVED, TILES
+from .provenance import outline, read_report
+
+STATE, ITEMS = "batch-state", "items"
+_COLUMNS = (
+    "scan",
+    "state",
+    "rows",
+    "columns",
+    "returns",
+    "colored",
+    "confidence",
+    "photos",
+    "verified_photos",
+    "warnings",
+    "seconds",
+    "note",
+)
+_LARGEST_PREVIEW, _LARGEST_ITEM = 1 << 22, 1 << 22
+_STATES = {
+    "done": "colorized",
+    "guessed": "colorized from guesses",
+    "unshown": "shown by no photo",
+    "failed": "failed",
+    "open": "not begun",
+}
+
+
+def write_page(root, session):
+    """Merge the reports in the folder of a batch.
+
+    Parameters
+    ----------
+    root : Path
+        The folder; ``reports`` in it holds a report of each scan and its preview.
+    session : object
+        With ``progress(fraction, text)`` and ``warnings``, as of the pipeline.
+
+    Returns
+    -------
+    list of Path
+        The page and the table.
+
+    Raises
+    ------
+    OutputError
+        If they cannot be written.
+    """
+    entries = _entries(root, session)
+    page, table = root / "report.html", root / "report.csv"
+    with written_atomically(page) as temporary:
+        temporary.write_text(_page(root, entries), encoding="utf-8", errors="xmlcharrefreplace")
+    text = io.StringIO(newline="")
+    writer = csv.DictWriter(text, _COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({name: entry[name] for name in _COLUMNS} for entry in entries)
+    with written_atomically(table) as temporary:
+        temporary.write_text(text.getvalue(), encoding="utf-8", errors="backslashreplace", newline="")
+    return [page, table]
+
+
+def _entries(root, session):
+    """What is to be told of each scan, by name."""
+    paths = sorted((root / "reports").glob("*.json"))
+    entries, items = {}, _items(root)
+    for number, path in enumerate(paths):
+        session.progress(number / len(paths), path.name)
+        try:
+            entries[path.stem] = _of_report(path, read_report(path))
+        except (ReflcolorError, KeyError, TypeError, ValueError) as error:
+            problem = str(error) if isinstance(error, ReflcolorError) else "it lacks a part"
+            entries[path.stem] = _entry(path.stem, "failed", note=f"its report cannot be used: {problem}")
+    for name, item in items.items():
+        left_out = item.get("left_out") or []
+        for label in left_out:
+            entries.setdefault(label, _entry(label, "unshown", note="no photo shows this scan"))
+        if item.get("outcome") == "failed":
+            own = [label for label in entries if label == name or label.startswith(f"{name}+")]
+            for label in own or [name]:
+                entry = entries.setdefault(label, _entry(label, "failed"))
+                entry.update(state="failed", note=str(item.get("error", "")))
+    return [entries[name] for name in sorted(entries, key=str.casefold)]
+
+
+def _items(root):
+    """What became of the items of the batch, by name."""
+    found = {}
+    for path in sorted((root / STATE / ITEMS).glob("*.json")):
+        try:
+            item = read_json(path, "what became of an item", most=_LARGEST_ITEM)
+        except ReflcolorError:
+            continue
+        if isinstance(item, dict):
+            found[path.stem] = item
+    return found
+
+
+def _entry(scan, state, **more):
+    return dict.fromkeys(_COLUMNS, "") | {"scan": scan, "state": state, "report": None, "preview": None} | more
+
+
+def _of_report(path, report):
+    scan, result = report["scan"], report["result"]
+    photos, warnings = report["photos"], [str(line) for line in report["warnings"]]
+    state = "guessed" if result.get("guessed") else "done"
+    preview = path.with_suffix(".jpg")
+    return _entry(
+        path.stem,
+        state,
+        rows=scan["rows"],
+        columns=scan["columns"],
+        returns=scan["returns"],
+        colored=round(result["colored"] / max(scan["returns"], 1), 4),
+        confidence="" if result.get("mean_confidence") is None else round(result["mean_confidence"], 3),
+        photos=len(photos),
+        verified_photos=sum(bool(photo["verified"]) for photo in photos),
+        warnings=len(warnings),
+        seconds=round(sum(report.get("times_s", {}).values()), 1),
+        note="; ".join(warnings),
+        report=report,
+        preview=preview if preview.is_file() else None,
+    )
+
+
+def _page(root, entries):
+    template = Template(files(__package__).joinpath("page.html").read_text(encoding="utf-8"))
+    count = {state: sum(entry["state"] == state for entry in entries) for state in _STATES}
+    parts = [f"{number} {_STATES[state]}" for state, number in count.items() if number]
+    colors = {"observed": OBSERVED, "inferred": INFERRED, "guess": GUESS, "unknown": UNKNOWN}
+    return template.substitute(
+        title=escape(f"Colorized scans in {root.absolute().name}"),
+        summary=escape(f"{len(entries)} scans: {', '.join(parts)}." if entries else "No scan was worked on yet."),
+        rows="\n".join(map(_row, entries)),
+        version=escape(__version__),
+        **{name: "#{:02x}{:02x}{:02x}".format(*rgb) for name, rgb in colors.items()},
+    )
+
+
+def _row(entry):
+    states = [entry["state"], "warned" if entry["warnings"] else ""]
+    states.append("done" if entry["state"] == "guessed" else "")
+    colored = "" if entry["colored"] == "" else f"{entry['colored']:.1%}"
+    photos = "" if entry["photos"] == "" else f"{entry['verified_photos']} of {entry['photos']}"
+    kind = "guessed" if entry["state"] == "guessed" else entry["state"]
+    state = f'<span class="status {kind}">{escape(_STATES[entry["state"]])}</span>'
+    cells = [
+        f'<td data-label="">{_tiles(entry)}</td>',
+        f'<th scope="row" data-value="{escape(entry["scan"])}">{escape(entry["scan"])}</th>',
+        f'<td data-label="State" data-value="{escape(_STATES[entry["state"]])}">{state}</td>',
+        _number("Returns", entry["returns"], "" if entry["returns"] == "" else f"{entry['returns']:,}"),
+        _number("Colored", entry["colored"], colored),
+        _number("Confidence", entry["confidence"], str(entry["confidence"])),
+        _number("Photos", entry["verified_photos"], photos),
+        _number("Warnings", entry["warnings"], str(entry["warnings"])),
+        _number("Seconds", entry["seconds"], str(entry["seconds"])),
+        f'<td data-label="Details">{_details(entry)}</td>',
+    ]
+    return f'<tr data-state="{" ".join(filter(None, states))}">{"".join(cells)}</tr>'
+
+
+def _number(label, value, text):
+    return f'<td class="number" data-label="{label}" data-value="{value}">{escape(text)}</td>'
+
+
+def _tiles(entry):
+    """The preview; one picture, shown in four places by style alone."""
+    path = entry["preview"]
+    try:
+        data = None if path is None else contents(path, "a preview", most=_LARGEST_PREVIEW)
+    except ReflcolorError:
+        data = None
+    if not data:
+        return '<span class="soft">no preview</span>'
+    import cv2
+    import numpy as np
+
+    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+    if picture is None:
+        return '<span class="soft">no preview</span>'
+    height, width = picture.shape[:2]
+    encoded = base64.b64encode(data).decode("ascii")
+    style = f"--picture: url(data:image/jpeg;base64,{encoded}); --aspect: {width / len(TILES):.0f} / {height}"
+    tiles = "".join(
+        f'<div role="img" aria-label="{escape(entry["scan"])}, {name}"><span aria-hidden="true">{name}</span></div>'
+        for name in TILES
+    )
+    return f'<div class="tiles" style="{style}">{tiles}</div>'
+
+
+def _details(entry):
+    report = entry["report"]
+    if report is None:
+        return f"<p>{escape(entry['note'])}</p>" if entry["note"] else ""
+    told = outline(report)
+    parts = []
+    if report["warnings"]:
+        parts.append("<p>Warnings</p>" + _list(map(str, report["warnings"])))
+    if report["photos"]:
+        parts.append("<p>Photos</p>" + _list(f"{photo['name']}: {photo['note']}" for photo in report["photos"]))
+    facts = {
+        "Grid": f"{entry['columns']} x {entry['rows']} pixels",
+        "Seeds": ", ".join(f"{count} {source}" for source, count in told.sources.items()),
+        "Settings": ", ".join(f"{name} {value}" for name, value in report["settings"].items()),
+        "Inputs": "; ".join(f"{role} {path} (SHA-256 {sha256})" for role, path, sha256 in told.inputs),
+        "Outputs": "; ".join(output["path"] for output in report["outputs"]),
+        "Made": told.created,
+        "Versions": ", ".join(f"{name} {value}" for name, value in report["versions"].items() if value),
+    }
+    lines = "".join(f"<dt>{escape(name)}</dt><dd>{escape(text)}</dd>" for name, text in facts.items() if text)
+    parts.append(f"<dl>{lines}</dl>")
+    return f"<details><summary>Details</summary>{''.join(parts)}</details>"
+
+
+def _list(lines):
+    return f"<ul>{''.join(f'<li>{escape(line)}</li>' for line in lines)}</ul>"

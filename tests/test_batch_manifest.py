@@ -1,0 +1,182 @@
+"""The manifest of a batch: what it means, and that everything wrong with it is named at once."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from archives import HEAD, make_archive
+from small_scans import random_scan
+
+from reflcolor_addon import Seeds
+from reflcolor_addon.batch.archive.check import check_manifest
+from reflcolor_addon.batch.archive.draft import draft
+from reflcolor_addon.batch.archive.manifest import load_manifest
+from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.writers import write_ptx
+
+
+def read(folder, text):
+    """The manifest of this text in a folder, and the lines of what is wrong with it."""
+    path, faults = folder / "batch.toml", []
+    path.write_text(text, encoding="utf-8")
+    manifest = load_manifest(path, faults.append)
+    if manifest is not None:
+        check_manifest(manifest, None, faults.append)
+    return manifest, [str(fault).removeprefix(f"{path}: ") for fault in faults]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    make_archive(tmp_path)
+    (tmp_path / "photos").mkdir()
+    for name in ("a.png", "b.png"):
+        write_png(tmp_path / "photos" / name, np.full((8, 8, 3), 90, np.uint8))
+    return tmp_path
+
+
+def test_patterns_defaults_and_what_one_scan_has_of_its_own(folder):
+    manifest, faults = read(
+        folder,
+        HEAD
+        + 'scans = ["hall_*.ptx"]\nphotos = "photos/*.png"\npreset = "Enhanced"\n'
+        + 'settings = { alpha = 20.0 }\nwrite = "png"\n'
+        + '[[scan]]\nfile = "hall_1.ptx"\nname = "tower"\nseeds = "hall_1.seeds.json"\nwrite = ["ply"]\n'
+        + "[scan.settings]\nbeta = 0\n"
+        + '[[scan]]\nfile = "hall_2.ptx"\nskip = true\n',
+    )
+    assert faults == []
+    first, tower = manifest.items
+    assert (first.name, tower.name) == ("hall_0", "tower")
+    assert first.offered and not tower.offered
+    assert [path.name for path in first.plan.photos] == ["a.png", "b.png"]
+    assert tower.plan.seeds == folder / "hall_1.seeds.json"
+    assert first.plan.settings.alpha == tower.plan.settings.alpha == 20.0
+    assert first.plan.settings.beta != 0 == tower.plan.settings.beta
+    written = [output.of(tower.name).path for output in tower.plan.outputs if output.option == "write"]
+    assert written == [folder / "colored" / "tower.ply"]
+
+
+def test_scans_of_one_site_are_one_item(folder):
+    table = '[[scan]]\nfile = "hall_{}.ptx"\nsite = "hall"\n'
+    manifest, faults = read(folder, HEAD + 'photos = "photos/a.png"\n' + table.format(0) + table.format(2))
+    assert faults == []
+    (item,) = manifest.items
+    assert item.name == "hall"
+    assert [path.name for path in item.plan.scans] == ["hall_0.ptx", "hall_2.ptx"]
+
+
+def test_scans_of_one_name_in_different_folders_get_names_of_their_own(folder):
+    for name in ("east", "west"):
+        (folder / name).mkdir()
+        write_ptx(random_scan(), folder / name / "Hall 1.ptx")
+    manifest, faults = read(folder, HEAD + 'scans = ["*/Hall 1.ptx"]\nphotos = "photos/a.png"\n')
+    assert faults == []
+    names = [item.name for item in manifest.items]
+    assert len({name.casefold() for name in names}) == 2
+    assert all(name.startswith("Hall") for name in names)
+
+
+def test_everything_wrong_is_named_at_once_with_its_line(folder):
+    (folder / "broken.seeds.json").write_text("{", encoding="utf-8")
+    lines = (
+        'format = "reflcolor-batch"',
+        "version = 1",
+        'output = "colored"',
+        'scans = ["hall_0.ptx", "missing_*.ptx"]',
+        'photos = ["photos/c.png"]',
+        'write = ["png", "tif"]',
+        'preset = "Natrual"',
+        "render = 1",
+        "colour = true",
+        "[settings]",
+        "alpha = -1",
+        "alhpa = 3",
+        "[[scan]]",
+        'file = "hall_0.ptx"',
+        'seeds = "nowhere.json"',
+        "[[scan]]",
+        'file = "hall_1.ptx"',
+        'seeds = "broken.seeds.json"',
+        "[[scan]]",
+        'name = "nameless"',
+        "[[scan]]",
+        'file = "hall_2.ptx"',
+        'photos = "batch.toml"',
+    )
+    _, faults = read(folder, "\n".join(lines) + "\n")
+    found = {}
+    for fault in faults:
+        number = int(re.match(r"line (\d+): ", fault)[1])
+        found.setdefault(number, []).append(fault)
+    for number, word in {
+        4: "missing_*.ptx",
+        5: "photos/c.png",
+        6: "tif",
+        7: "Natrual",
+        8: "render",
+        9: "colour",
+        11: "alpha",
+        12: "did you mean alpha?",
+        15: "nowhere.json",
+        16: "broken.seeds.json",
+        19: "file: is missing",
+        23: "no image by its name",
+    }.items():
+        assert any(word in fault for fault in found.get(number, [])), (number, word, faults)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("scans = [", "is not TOML"),
+        ('output = "x"\n', "expected format = "),
+        (HEAD, "no scan is named"),
+        (HEAD + 'scans = "hall_0.ptx"\n', "has neither seeds nor photos"),
+        ('format = "reflcolor-batch"\nversion = 1\n', "output: is missing"),
+        (HEAD + 'pairs = "no.csv"\n', "there is no file no.csv"),
+    ],
+)
+def test_what_cannot_be_worked_on(folder, text, expected):
+    _, faults = read(folder, text)
+    assert any(expected in fault for fault in faults), faults
+
+
+def test_a_file_that_is_no_text(folder):
+    path, faults = folder / "batch.toml", []
+    path.write_bytes(b"output = '\xff'\n")
+    assert load_manifest(path, faults.append) is None
+    assert "line 1: is not UTF-8" in str(faults[0])
+
+
+def test_results_never_take_the_place_of_inputs(folder):
+    (folder / "colored").mkdir()
+    write_png(folder / "colored" / "hall_0.png", np.zeros((4, 4, 3), np.uint8))
+    _, faults = read(folder, HEAD + 'scans = "hall_0.ptx"\nphotos = "colored/hall_0.png"\n')
+    assert any("would be overwritten" in fault for fault in faults), faults
+
+
+def test_a_draft_names_every_scan_and_photo_and_is_a_manifest_without_faults(folder):
+    (folder / "Bilder 2003 [alt]").mkdir()
+    write_png(folder / "Bilder 2003 [alt]" / "dach.png", np.zeros((4, 4, 3), np.uint8))
+    (folder / "batch.toml").unlink()
+    manifest, faults = read(folder, draft(folder, folder / "batch.toml"))
+    assert faults == []
+    assert [item.plan.scans[0].name for item in manifest.items] == ["hall_0.ptx", "hall_1.ptx", "hall_2.ptx"]
+    assert all(item.plan.seeds is not None for item in manifest.items)
+    assert {path.name for path in manifest.photos} == {"a.png", "b.png", "dach.png"}
+
+
+def test_a_draft_leaves_out_images_that_belong_to_a_scan_and_results_of_a_batch(folder):
+    (folder / "colored" / "batch-state").mkdir(parents=True)
+    write_ptx(random_scan(), folder / "colored" / "old.ptx")
+    text = draft(folder, folder / "batch.toml")
+    assert "old.ptx" not in text and "colored/" not in text
+
+
+def test_seeds_named_for_all_scans_may_be_missing_where_there_are_photos(folder):
+    Seeds([1], [2], [[1, 2, 3]]).save(folder / "hall_0.json")
+    manifest, faults = read(folder, HEAD + 'scans = "hall_*.ptx"\nphotos = "photos/a.png"\nseeds = "{scan}.json"\n')
+    assert faults == []
+    assert [item.offered for item in manifest.items] == [False, True, True]
+    assert manifest.items[0].plan.seeds == Path(folder / "{scan}.json")
