@@ -11,7 +11,18 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 CORE = "reflcolor_addon"
 # Modules of the core's ground floor, which every room may import.
-GROUND = {"bundled", "declaration", "errors", "failures", "messages", "progress", "settings", "srgb", "threads", "version"}
+GROUND = {
+    "bundled",
+    "declaration",
+    "errors",
+    "failures",
+    "messages",
+    "progress",
+    "settings",
+    "srgb",
+    "threads",
+    "version",
+}
 # What each room may import besides itself and the ground floor. Data walks from the top of this list to its end.
 ROOMS = {
     "native": set(),
