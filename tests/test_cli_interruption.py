@@ -58,7 +58,7 @@ def test_the_handlers_of_signals_are_put_back(run_cli, cli_folder, interrupting,
 
 
 def test_an_interruption_while_blender_writes_ends_it_and_names_what_is_there(run_cli):
-    def write_scene(_results, paths, _render, progress):
+    def write_scene(_results, paths, _render, _picture, progress):
         paths[0].write_bytes(b"scene")
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(Cancelled):

@@ -1,6 +1,6 @@
 """Method 2: from a scan, or all scans of a site, and photos to seeds."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
