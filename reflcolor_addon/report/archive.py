@@ -53,8 +53,10 @@ def write_page(root, session):
 
     Returns
     -------
-    list of Path
+    paths : list of Path
         The page and the table.
+    failed : list of str
+        The names of the scans that failed.
 
     Raises
     ------
@@ -71,7 +73,7 @@ def write_page(root, session):
     writer.writerows({name: entry[name] for name in _COLUMNS} for entry in entries)
     with written_atomically(table) as temporary:
         temporary.write_text(text.getvalue(), encoding="utf-8", errors="backslashreplace", newline="")
-    return [page, table]
+    return [page, table], [entry["scan"] for entry in entries if entry["state"] == "failed"]
 
 
 def _entries(root, session):

@@ -44,6 +44,11 @@ def add_arguments(parser):
         "--memory", type=_gigabytes, metavar="GB", help="of all processes (default: most of what is free)"
     )
     parser.add_argument(
+        "--fail-in-report",
+        action="store_true",
+        help="end with 0 although scans failed; report --fail tells of them after all tasks of a farm are done",
+    )
+    parser.add_argument(
         "--openjd", action="store_true", help="tell progress and failure as Open Job Description has it"
     )
 
@@ -91,7 +96,7 @@ def run(arguments, session):
         session.complain(f"{arguments.input}: interrupted; run it again with --resume to go on")
         raise
     if first is None and len(options.stages) == len(STAGES):
-        for path in write_page(manifest.folder.root, session):
+        for path in write_page(manifest.folder.root, session)[0]:
             session.say(Message("wrote {path}", path=path))
     _tell(states, arguments, session)
 
@@ -122,6 +127,9 @@ def _tell(states, arguments, session):
             whole=len(states),
             names=", ".join(state.item.name for state in failed),
         )
+        if arguments.fail_in_report:
+            session.warnings.append(message)
+            return
         if arguments.openjd:
             session.say(f"openjd_fail: {message}")
         raise ReflcolorError(message)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ...errors import UsageError
+from ...errors import ReflcolorError, UsageError
 from ...messages import Message
 from ...report.archive import write_page
 
@@ -13,6 +13,8 @@ HELP = "make one page and one table of a batch"
 def add_arguments(parser):
     """Declare what ``report`` takes."""
     parser.add_argument("input", metavar="DIR", type=Path, help="the output folder of a batch")
+    parser.add_argument("--fail", action="store_true", help="end with 1 if a scan failed")
+    parser.add_argument("--openjd", action="store_true", help="tell a failure as Open Job Description has it")
 
 
 def run(arguments, session):
@@ -21,5 +23,16 @@ def run(arguments, session):
         raise UsageError(
             "{folder}: is not the output folder of a batch: it has no folder reports", folder=arguments.input
         )
-    for path in write_page(arguments.input, session):
+    paths, failed = write_page(arguments.input, session)
+    for path in paths:
         session.say(Message("wrote {path}", path=path))
+    if failed and arguments.fail:
+        message = Message(
+            "{folder}: {count} scans failed: {names}; see the folder logs",
+            folder=arguments.input,
+            count=len(failed),
+            names=", ".join(failed),
+        )
+        if arguments.openjd:
+            session.say(f"openjd_fail: {message}")
+        raise ReflcolorError(message)
