@@ -78,3 +78,4 @@ class Context:
             return stop
 
         self.workers.work(tasks, counted, show)
+        self.session.progress(left.share(), f"{what} {done} of {count}")
