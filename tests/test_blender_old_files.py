@@ -1,10 +1,14 @@
 """Files of earlier versions, in Blender through the installed zip."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 from small_scans import random_scan
 from test_blender_import import srgb, write_small_ptx
 
+OLD = Path(__file__).parent / "old_files"
 OLD_NAMES = {"Reflectance_Gray": "Reflectance Gray", "Range_Map": "Range Map", "Scan_Grid": "Scan Grid"}
 
 
@@ -82,3 +86,50 @@ def test_scans_brought_into_a_scene_that_nobody_set_anything_in_are_saved_with_i
     blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "two.blend"))
     blender.ops.wm.open_mainfile(filepath=str(tmp_path / "two.blend"))
     assert [scene.reflcolor.light for scene in blender.data.scenes] == [1, 1]
+
+
+@pytest.fixture
+def of_then(blender):
+    """The file that commit b961f62 saved, opened: (bpy, its scan)."""
+    blender.ops.wm.open_mainfile(filepath=str(OLD / "wall.blend"))
+    (obj,) = (obj for obj in blender.data.objects if obj.type == "MESH")
+    return blender, obj
+
+
+def test_a_file_of_then_opens_with_its_colors_seeds_and_settings(of_then):
+    bpy, obj = of_then
+    np.testing.assert_array_equal(srgb(obj, "Colorized"), np.load(OLD / "colors.npy"))
+    assert [(seed.row, seed.col) for seed in obj.reflcolor.seeds] == [(1, 2), (4, 7)]
+    settings = bpy.context.scene.reflcolor
+    assert (settings.alpha, settings.beta, settings.color_space, settings.slic_segments) == (7, 2, "cielab", 321)
+    assert (settings.light, settings.kriging, settings.blend) == (0, 0, "auto")
+    assert json.loads(obj["reflcolor_provenance"])["settings"]["alpha"] == 7
+
+
+def test_a_file_of_then_colorized_again_has_the_same_colors(of_then):
+    bpy, obj = of_then
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    assert bpy.ops.reflcolor.colorize() == {"FINISHED"}
+    np.testing.assert_array_equal(srgb(obj, "Colorized"), np.load(OLD / "colors.npy"))
+
+
+def test_provenance_reads_a_file_of_then(blender_command):
+    done = blender_command("provenance", OLD / "wall.blend")
+    assert done.returncode == 0 and "wall" in done.stdout, done.stderr
+
+
+@pytest.mark.parametrize("kind", ["colorize", "match"])
+def test_a_preset_of_then_sets_what_it_set(blender, tmp_path, kind):
+    preset = tmp_path / "Dark_Halls.py"
+    preset.write_bytes((OLD / f"{kind}_preset.txt").read_bytes())
+    settings = blender.context.scene.reflcolor
+    menu = getattr(blender.types, f"REFLCOLOR_PT_{kind}_presets")
+    label = menu.bl_label
+    blender.ops.script.execute_preset(filepath=str(preset), menu_idname=menu.__name__)
+    menu.bl_label = label
+    if kind == "colorize":
+        found = settings.alpha, settings.beta, settings.color_space, settings.kriging, settings.light
+        assert found == (7, 2, "cielab", 0, 0) and settings.tone == pytest.approx(1.2)
+    else:
+        assert (settings.matching, settings.slic_segments) == ("verified", 321)
