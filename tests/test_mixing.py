@@ -37,6 +37,10 @@ def test_without_evidence_it_is_the_expected_one(expected):
     assert share == pytest.approx(expected)
 
 
+def test_with_kriging_alone_even_a_seed_s_own_pixel_is_kriging_s():
+    np.testing.assert_array_equal(mixture(GOOD, BAD, APART, 1, 0).share(np.array([0.0, 5.0])), [1, 1])
+
+
 def test_where_near_seeds_foretell_by_paths_and_far_ones_by_kriging_both_get_their_pixels():
     apart = np.where(np.arange(500) < 250, 1.0, 1000.0)
     near = (apart == 1)[:, None]

@@ -37,7 +37,9 @@ class Mixture(NamedTuple):
     def share(self, distances):
         """Return the share of kriging, float32 of 0 to 1, at geodesic distances to the nearest seed."""
         root = np.sqrt(np.where(np.isfinite(distances), distances, 1e6), dtype=np.float32)
-        return root / (root + np.float32(self.odds * math.sqrt(_MIDDLE)))
+        total = root + np.float32(self.odds * math.sqrt(_MIDDLE))
+        # With kriging alone a seed's own pixel is kriging's, too.
+        return np.divide(root, total, out=np.ones_like(root), where=total > 0)
 
 
 def mixture(kriging_residuals, path_residuals, apart, expected, picked):
