@@ -8,14 +8,17 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatPrope
 from bpy_extras.io_utils import ImportHelper
 
 from ..reflcolor_addon.batch.paths import scan_files
-from ..reflcolor_addon.errors import ScanError
+from ..reflcolor_addon.errors import ImageError, ScanError
 from ..reflcolor_addon.files.images import IMAGE_SUFFIXES
 from ..reflcolor_addon.files.readers import SCAN_SUFFIXES, read_scans
-from ..reflcolor_addon.files.readers.pair_description import describe_pair
+from ..reflcolor_addon.files.readers.e57_photos import photos_inside, read_photos
+from ..reflcolor_addon.files.readers.pair_description import Pair, describe_pair, table_of
 from ..reflcolor_addon.report.report import input_entry, scan_entry
 from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.scan.object_arrays import object_arrays
 from .scene.notices import tell
+from .scene.pair_preview import draw_preview, picked_files
+from .scene.photos import add_photos
 from .scene.provenance import record_import
 from .scene.reading_properties import ReadingProperties
 from .scene.scan_object import add_scan_object
@@ -54,17 +57,31 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         name="Sensor",
         description="How the pixels of a range image look into the scene",
         items=(
+            ("auto", "Automatic", "A guess from the shape of the images; what comes of it is shown below"),
             ("spherical", "Spherical", "Equal angles from pixel to pixel, as a turning laser scanner has them"),
             ("pinhole", "Pinhole", "A camera's perspective, as a time-of-flight camera has it"),
         ),
     )
     range_scale: FloatProperty(
         name="Range Scale",
-        description="Metres for one unit of the range image; 0.001 for millimetres",
-        default=0.001,
-        min=1e-9,
+        description="Meters for one unit of the range image, 0.001 for millimeters; 0 to guess it from its values",
+        default=0,
+        min=0,
         soft_max=1,
         precision=6,
+    )
+    range_table: StringProperty(
+        name="Range Table",
+        description="For range images that are no linear measure, instead of the scale: pairs of a value and meters, "
+        "such as 0 0.5, 128 3, 255 12",
+    )
+    color_order: EnumProperty(
+        name="Color Order",
+        description="How a third image, of colors, stores them",
+        items=(
+            ("rgb", "Red, Green, Blue", "As most images"),
+            ("bgr", "Blue, Green, Red", "For images whose red and blue come in swapped"),
+        ),
     )
     azimuth_left: FloatProperty(
         name="Left Edge",
@@ -108,6 +125,11 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         name="Outside Files",
         description="Let a .scan.json name images outside of its own folder, for files whose sender is trusted",
     )
+    photos_inside: BoolProperty(
+        name="Photos Inside",
+        description="Put the photos that an E57 holds on the list of photos, to take colors from",
+        default=True,
+    )
     swap_images: BoolProperty(name="Swap Images", description="Take the other one of the two images as the range image")
 
     def invoke(self, context, event):
@@ -119,32 +141,54 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
     def prepare(self, context):
         paths = [Path(self.directory, file.name) for file in self.files if file.name] or [Path(self.filepath)]
         pair = [path for path in paths if path.suffix.lower() in IMAGE_SUFFIXES]
-        sensor, range_scale, swap = self._sensor_model(), self.range_scale, self.swap_images
-        outside = self.outside_files
+        picked = self._pair(pair)
+        outside, inside = self.outside_files, self.photos_inside
         reading = self.read_options()
         options = {
             "max_incidence_deg": degrees(self.max_incidence),
             "units_per_metre": 1 / context.scene.unit_settings.scale_length,
         }
-        if pair and (len(pair) != 2 or len(paths) != 2):
-            raise ScanError("{name}: pick two images together, one of range and one of reflectance", name=pair[0].name)
+        if pair and (len(pair) not in (2, 3) or len(paths) != len(pair)):
+            raise ScanError(
+                "{name}: pick two images together, one of range and one of reflectance, and a third of colors if there "
+                "is one",
+                name=pair[0].name,
+            )
 
         def work(progress, cancelled):
-            files = [describe_pair(*pair, sensor, range_scale=range_scale, swap=swap)] if pair else paths
-            return [imported for path in files for imported in read(path, progress, cancelled)]
+            files, doubts = paths, ()
+            if pair:
+                described, doubts = describe_pair(picked)
+                files = [described]
+            scans = [imported for path in files for imported in read(path, doubts, progress, cancelled)]
+            return scans, photos_in(paths, cancelled)
 
-        def read(path, progress, cancelled):
+        def photos_in(paths, cancelled):
+            """(path, photos, warnings) of each file that has photos inside; what is wrong with them stops no import."""
+            found = []
+            for path in paths if inside else ():
+                warnings, photos = [], []
+                try:
+                    if any(photo.usable for photo in photos_inside(path)):
+                        photos = read_photos(path, warnings, cancelled=cancelled)
+                except ImageError as error:
+                    warnings.append(error.message)
+                if photos or warnings:
+                    found.append((path, photos, warnings))
+            return found
+
+        def read(path, doubts, progress, cancelled):
             scans = read_scans(path, options=reading, outside=outside, progress=progress, cancelled=cancelled)
             inputs = [input_entry("scan", file, cancelled) for file in scan_files(path)]
             for index, scan in enumerate(scans, 1):
                 entry = scan_entry(scan, index, reading=reading)
-                yield object_arrays(scan, **options), entry, inputs, scan.warnings
+                yield object_arrays(scan, **options), entry, inputs, (*scan.warnings, *doubts)
 
         return work
 
     def finish(self, context, result):
-        added = []
-        for arrays, entry, inputs, warnings in result:
+        added, (scans, photos) = [], result
+        for arrays, entry, inputs, warnings in scans:
             obj = add_scan_object(context, arrays)
             record_import(obj, entry, inputs, warnings)
             tell(self, obj, told("Imported {name}", name=arrays.name), warnings)
@@ -152,8 +196,25 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         for obj in added:
             obj.select_set(True)
         show_imported(context, added)
+        for path, found, warnings in photos:
+            add_photos(context, found, path)
+            said = told("Photos inside {name}, now on the list of photos: {count}", name=path.name, count=len(found))
+            tell(self, added[0], said, warnings)
+
+    def _pair(self, images):
+        """What is said of images that are picked together."""
+        return Pair(
+            images=tuple(images),
+            model=self._sensor_model(),
+            range_scale=self.range_scale or None,
+            range_table=table_of(self.range_table),
+            color_order=self.color_order,
+            swap=self.swap_images,
+        )
 
     def _sensor_model(self):
+        if self.sensor == "auto":
+            return None
         if self.sensor == "pinhole":
             values = {"fx": self.focal_x, "fy": self.focal_y, "cx": self.center_x, "cy": self.center_y}
         else:
@@ -169,6 +230,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         layout.use_property_decorate = False
         layout.prop(self, "max_incidence")
         self.draw_reading(layout)
+        layout.prop(self, "photos_inside")
         layout.prop(self, "outside_files")
         header, body = layout.panel("REFLCOLOR_import_image_pair", default_closed=True)
         header.label(text="Image Pair")
@@ -176,10 +238,13 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             return
         body.label(text="For a range and a reflectance image picked together", icon="INFO")
         body.prop(self, "sensor")
-        for name in _SENSOR_PROPERTIES[self.sensor]:
+        for name in _SENSOR_PROPERTIES.get(self.sensor, ()):
             body.prop(self, name)
-        body.prop(self, "range_scale")
-        body.prop(self, "swap_images")
+        for name in ("range_scale", "range_table", "color_order", "swap_images"):
+            body.prop(self, name)
+        images = [path for path in picked_files(context) if path.suffix.lower() in IMAGE_SUFFIXES]
+        if len(images) in (2, 3):
+            draw_preview(body, images, self._pair)
 
 
 def draw_menu(self, _context):

@@ -6,10 +6,11 @@ import bpy
 from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
+from ..reflcolor_addon.files.photo_files import photos_of
 from ..reflcolor_addon.seeds.seeds import Seeds, find_photo
-from .load_photo import add_photo
 from .scene import polls
 from .scene.notices import tell
+from .scene.photos import add_photos
 from .scene.provenance import record_seeds_file
 from .scene.reports import reported
 from .scene.scan_object import scan_of
@@ -44,7 +45,7 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
         for name in dict.fromkeys(filter(None, seeds.photos)):
             path = find_photo(name, Path(self.filepath), ())
             if path is not None and name not in bpy.data.images:
-                add_photo(context, path)
+                add_photos(context, photos_of(path), path)
         if self.replace:
             obj.reflcolor.seeds.clear()
         append_seeds(obj, seeds)

@@ -7,10 +7,11 @@ from ..reflcolor_addon.batch.scan_job import ScanJob
 from ..reflcolor_addon.errors import SeedsError
 from ..reflcolor_addon.matching import draw_matches
 from .scene import polls
-from .scene.images import read_pixels, write_image
+from .scene.images import write_image
 from .scene.notices import tell, tell_together
+from .scene.photos import photo_of
 from .scene.provenance import record_matching
-from .scene.scan_object import own_image, scan_reader
+from .scene.scan_object import SHIFT, own_image, scan_reader
 from .scene.seed_list import append_seeds, remove_seeds, seeds_of
 from .scene.setting_properties import MATCH_NAMES, MatchSettings, core_settings
 from .scene.texts import told
@@ -32,8 +33,9 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
     def prepare(self, context):
         objects, self._left_out = polls.fitting_scans(context, polls.foreign_seeds)
         listed = context.scene.reflcolor.photos
-        photos = [(photo.image.name, read_pixels(photo.image)) for photo in listed if photo.image is not None]
-        if any(pixels is None for _, pixels in photos):
+        shift = context.scene.get(SHIFT, (0.0, 0.0, 0.0))
+        photos = [photo_of(photo.image, shift) for photo in listed if photo.image is not None]
+        if None in photos:
             raise SeedsError("a photo of the list cannot be read; remove it and load it again")
         settings = self._settings = core_settings(self, context.scene.reflcolor, MATCH_NAMES)
         jobs = [

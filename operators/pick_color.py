@@ -4,10 +4,10 @@ import bpy
 from bpy.props import BoolProperty, FloatVectorProperty, StringProperty
 
 from ..reflcolor_addon.errors import SeedsError
-from .load_photo import list_photo
 from .scene import polls
 from .scene.editors import select_only
 from .scene.images import read_pixel
+from .scene.photos import list_photo
 from .scene.quiet import point_to, write_quietly
 from .scene.reports import reported
 from .scene.seed_arrays import FOUND_BY

@@ -8,7 +8,7 @@ import numpy as np
 _PAGE, _PAYLOAD = 1024, 1020
 
 
-def write_e57(path, *scans):
+def write_e57(path, *scans, images=()):
     """Write an E57 file.
 
     Parameters
@@ -17,10 +17,12 @@ def write_e57(path, *scans):
     *scans : dict
         `fields`: name to (N,) array, floats stored as doubles, whole numbers as integers; the other keys become
         children of the scan: dicts structures, texts strings, numbers as `fields` are.
+    images : sequence of dict
+        Photos inside: what becomes the children of each, bytes blobs.
     """
     from pye57 import libe57
 
-    file = libe57.ImageFile(str(path), "w")
+    file, blobs = libe57.ImageFile(str(path), "w"), []
 
     def node_of(value):
         if isinstance(value, dict):
@@ -28,6 +30,9 @@ def write_e57(path, *scans):
             for name, child in value.items():
                 node.set(name, node_of(child))
             return node
+        if isinstance(value, bytes):
+            blobs.append((libe57.BlobNode(file, len(value)), value))
+            return blobs[-1][0]
         if isinstance(value, str):
             return libe57.StringNode(file, value)
         return libe57.IntegerNode(file, value) if isinstance(value, int) else libe57.FloatNode(file, value)
@@ -62,6 +67,13 @@ def write_e57(path, *scans):
         if kept[0].size:
             writer.write(kept[0].size)
         writer.close()
+    if images:
+        images2d = libe57.VectorNode(file, True)
+        root.set("images2D", images2d)
+        for image in images:
+            images2d.append(node_of(image))
+    for blob, data in blobs:
+        blob.write(np.frombuffer(data, np.uint8), 0, len(data))
     file.close()
 
 
@@ -91,3 +103,34 @@ def _table():
 
 
 _TABLE = _table()
+
+
+def e57_with_photo(path, picture):
+    """Write a scan of 3 x 4 pixels, and a pinhole photo (H, W, 3) at 1, 2, 3 that looks straight down; return the path.
+
+    Its focal length is 35 pixels.
+    """
+    import cv2
+
+    row, col = np.divmod(np.arange(12), 4)
+    turn, rise = np.radians(col * 2.0), np.radians(10 - row * 2.0)
+    points = {"cartesianX": np.cos(turn), "cartesianY": -np.sin(turn), "cartesianZ": np.tan(rise)}
+    image = {
+        "guid": "{1}",
+        "name": "photo",
+        "pose": {
+            "rotation": {"w": 1.0, "x": 0.0, "y": 0.0, "z": 0.0},
+            "translation": {"x": 1.0, "y": 2.0, "z": 3.0},
+        },
+        "pinholeRepresentation": {
+            "pngImage": cv2.imencode(".png", picture[..., ::-1])[1].tobytes(),
+            "imageWidth": picture.shape[1],
+            "imageHeight": picture.shape[0],
+            "focalLength": 0.035,
+            "pixelWidth": 0.001,
+            "pixelHeight": 0.001,
+        },
+    }
+    scan = {"fields": points | {"intensity": np.linspace(0, 1, 12), "rowIndex": row, "columnIndex": col}}
+    write_e57(path, scan, images=[image])
+    return path

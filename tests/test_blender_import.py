@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from e57_samples import e57_with_photo
 from small_scans import random_scan, scan_from_ranges
 
 from reflcolor_addon import read_scans
@@ -251,3 +252,33 @@ def test_the_scans_own_color_comes_along(blender, tmp_path):
     path = write_small_ptx(tmp_path / "colored.ptx", replace(scan, color=color))
     blender.ops.reflcolor.import_scan(filepath=str(path))
     np.testing.assert_array_equal(srgb(blender.context.active_object, "Scanned_Color"), color.reshape(-1, 3))
+
+
+def test_a_guessed_sensor_is_enough_for_two_images(blender, tmp_path, capfd):
+    import cv2
+
+    cv2.imwrite(str(tmp_path / "depth.png"), np.full((24, 32), 2000, np.uint16))
+    cv2.imwrite(str(tmp_path / "ir.png"), np.arange(768, dtype=np.uint16).reshape(24, 32))
+    files = {"directory": str(tmp_path), "files": [{"name": "ir.png"}, {"name": "depth.png"}]}
+    blender.ops.reflcolor.import_scan(filepath=str(tmp_path / "ir.png"), **files)
+    obj = blender.context.active_object
+    np.testing.assert_allclose(coordinates(obj)[:, 1], 2.0, rtol=1e-5)
+    around = {"azimuth_left": -math.pi, "azimuth_right": math.pi, "range_scale": 1e-4}
+    capfd.readouterr()
+    blender.ops.reflcolor.import_scan(filepath=str(tmp_path / "ir.png"), **files, sensor="spherical", **around)
+    assert "is a bowl, no scene" in capfd.readouterr().out
+
+
+def test_photos_inside_an_e57_are_put_on_the_list_with_their_place(blender, tmp_path):
+    picture = np.random.default_rng(0).integers(0, 256, (40, 60, 3), np.uint8)
+    path = e57_with_photo(tmp_path / "room.e57", picture)
+    blender.ops.reflcolor.import_scan(filepath=str(path))
+    (listed,) = blender.context.scene.reflcolor.photos
+    np.testing.assert_array_equal(np.rint(pixels(listed.image)[..., :3] * 255), picture)
+    np.testing.assert_allclose(listed.image["reflcolor_place"][9:], (1, 2, 3, 35))
+    blender.ops.reflcolor.remove_photo()
+    blender.ops.reflcolor.import_scan(filepath=str(path), photos_inside=False)
+    assert not blender.context.scene.reflcolor.photos
+    blender.ops.reflcolor.load_photo(filepath=str(path), swap_red_blue=True)
+    (listed,) = blender.context.scene.reflcolor.photos
+    np.testing.assert_array_equal(np.rint(pixels(listed.image)[..., :3] * 255), picture[..., ::-1])

@@ -111,7 +111,7 @@ def matched(installed_blender, monkeypatch):
 
     def match_site(scans, photos, settings, *, hand, kept, progress, cancelled):
         given.update(scans=scans, hand=hand, kept=kept)
-        ((name, _),) = photos
+        name = photos[0].name
         found = []
         for number, scan in enumerate(scans):
             rows, last = np.arange(2 - number), number == len(scans) - 1

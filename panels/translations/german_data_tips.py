@@ -146,8 +146,25 @@ _SCANS = {
     "it": (
         "Bild mit einem Pixel je Pixel des Scans; sonst das für den Scan gewählte, oder die Farben, die mit ihm kamen"
     ),
-    "Metres for one unit of the range image; 0.001 for millimetres": (
-        "Meter für eine Einheit des Entfernungsbildes; 0.001 für Millimeter"
+    "Meters for one unit of the range image, 0.001 for millimeters; 0 to guess it from its values": (
+        "Meter für eine Einheit des Entfernungsbildes, 0.001 für Millimeter; 0, um sie aus seinen Werten zu schätzen"
+    ),
+    "A guess from the shape of the images; what comes of it is shown below": (
+        "Nach der Form der Bilder geschätzt; was daraus wird, steht darunter"
+    ),
+    "For range images that are no linear measure, instead of the scale: pairs of a value and meters, such as 0 0.5, "
+    "128 3, 255 12": (
+        "Für Entfernungsbilder, die nicht linear messen, statt des Maßstabs: Paare von Wert und Metern, etwa 0 0.5, "
+        "128 3, 255 12"
+    ),
+    "How a third image, of colors, stores them": "Wie ein drittes Bild, das der Farben, sie speichert",
+    "As most images": "Wie die meisten Bilder",
+    "For images whose red and blue come in swapped": "Für Bilder, deren Rot und Blau vertauscht ankommen",
+    "Put the photos that an E57 holds on the list of photos, to take colors from": (
+        "Die Fotos, die eine E57-Datei enthält, auf die Liste der Fotos setzen, um Farben daraus zu nehmen"
+    ),
+    "For photos whose colors come in wrong because a program stored blue where red belongs": (
+        "Für Fotos mit falschen Farben, weil ein Programm Blau speicherte, wo Rot hingehört"
     ),
     "Mirror the scan's grid, where the file's order is misread": (
         "Den Scan seitlich spiegeln, wo die Reihenfolge der Datei falsch gelesen wird"

@@ -111,6 +111,9 @@ _REPORTS = {
     "Found seeds for {count} scans: {counts}": "Saatpunkte für {count} Scans gefunden: {counts}",
     "Found {count} seeds for {name}": "{count} Saatpunkte für {name} gefunden",
     "Imported {name}": "{name} importiert",
+    "Photos inside {name}, now on the list of photos: {count}": (
+        "Fotos in {name}, jetzt auf der Liste der Fotos: {count}"
+    ),
     "Loaded {count} seeds": "{count} Saatpunkte geladen",
     "Loaded {name}: {width} x {height} pixels": "{name} geladen: {width} x {height} Pixel",
     "No return there; placed at row {row}, column {col}": "Dort keine Messung; gesetzt in Zeile {row}, Spalte {col}",
@@ -157,8 +160,9 @@ _REPORTS = {
     "{name}: no pixel has a return, so no seed can be placed": (
         "{name}: kein Pixel hat eine Messung, also kann kein Saatpunkt gesetzt werden"
     ),
-    "{name}: pick two images together, one of range and one of reflectance": (
-        "{name}: zwei Bilder zusammen auswählen, eines der Entfernung und eines der Reflektanz"
+    "{name}: pick two images together, one of range and one of reflectance, and a third of colors if there is one": (
+        "{name}: zwei Bilder zusammen auswählen, eines der Entfernung und eines der Reflektanz, und ein drittes der "
+        "Farben, wenn es eines gibt"
     ),
     "{name}: the scan came without colors; choose an image of its true colors": (
         "{name}: der Scan kam ohne Farben; ein Bild seiner wahren Farben wählen"

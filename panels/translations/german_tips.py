@@ -66,8 +66,9 @@ _OPERATORS = {
     "Let go of the picked color; the next seed waits for its own": (
         "Die aufgenommene Farbe loslassen; der nächste Saatpunkt wartet auf seine eigene"
     ),
-    "Load ordinary photos, from any camera and any place, to take colors from": (
-        "Gewöhnliche Fotos laden, von irgendeiner Kamera und irgendwo her, um Farben daraus zu nehmen"
+    "Load ordinary photos, or those inside an E57, from any camera and any place, to take colors from": (
+        "Gewöhnliche Fotos oder die in einer E57-Datei laden, von irgendeiner Kamera und irgendwo her, um Farben "
+        "daraus zu nehmen"
     ),
     "Load seeds for the scan from a JSON file": "Saatpunkte für den Scan aus einer JSON-Datei laden",
     "Move a seed to another pixel of the scan; its color stays": (

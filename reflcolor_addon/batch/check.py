@@ -1,10 +1,12 @@
 """Looks at a plan before the work begins; what can be wrong with it is found out here, not at its end."""
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..errors import ReflcolorError, SeedsError, UsageError
-from ..files.images import read_image
+from ..files.photo_files import photos_of
+from ..files.readers.e57_photos import photos_inside
 from ..files.writers.glb import check_glb_size
 from ..messages import Message
 from ..seeds.seeds import Seeds
@@ -52,7 +54,9 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     Given
     """
     if plan.seeds is None and plan.from_color is None and plan.colors is None and not plan.photos:
-        refuse(UsageError("--seeds or --photo: give seeds, or photos to find them in"))
+        refuse(
+            UsageError("--seeds or --photo: give seeds, or photos to find them in{inside}", inside=_inside(plan.scans))
+        )
     _check_choice(plan, refuse)
     for output in plan.outputs:
         if output.needs_blender:
@@ -70,6 +74,17 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     for fault in output_faults(known, [path for _, path in read]):
         refuse(fault)
     return Given(seeds, hand, warnings)
+
+
+def _inside(scans):
+    """A hint to the photos that scan files have inside; empty where there are none."""
+    for path in scans:
+        with suppress(ReflcolorError):
+            if count := sum(photo.usable for photo in photos_inside(path)):
+                return Message(
+                    "; {file} holds {count} of its own: --photo {path}", file=path.name, count=count, path=path
+                )
+    return ""
 
 
 def check_jobs(plan, jobs, *, refuse=_raise):
@@ -131,8 +146,7 @@ def check_photos(photos, given, warnings):
     """See that every photo is an image; warn of one that no seeds name."""
     named = {Path(name).name for seeds in given for name in seeds.photos if name}
     for path in photos:
-        read_image(path, warnings)
-        if path.name not in named:
+        if not named & {photo.name for photo in photos_of(path, warnings)}:
             warnings.append(Message("{path}: no seed names this photo", path=path))
 
 

@@ -101,7 +101,7 @@ def reading_of(arguments):
 
 
 def add_photos(parser, help_text):
-    """Photos, any number after one option or after several."""
+    """Photos, any number after one option or after several; an E57 stands for the photos inside."""
     parser.add_argument("--photo", metavar="IMAGE", type=Path, nargs="+", action="extend", default=[], help=help_text)
 
 

@@ -46,8 +46,12 @@ def read_image(path, warnings=None, *, cancelled=None):
     ImageError
         If there is no such file, or it is no image or a broken one.
     """
-    data, header = _opened(path, cancelled)
-    name = Path(path).name
+    return image_of(_contents(path, cancelled), Path(path).name, warnings)
+
+
+def image_of(data, name, warnings=None):
+    """Return the (H, W, 3) uint8 of the bytes of an image file; see `read_image`."""
+    header = image_header(data, name)
     if header is None:
         return _srgb_of_light(_color_of_exr(exr_channels(data, name), name))
     values, alpha = _pixels(data, header, name, [] if warnings is None else warnings)
@@ -59,10 +63,8 @@ def read_image(path, warnings=None, *, cancelled=None):
     return rgb if values.dtype.kind == "f" else _in_srgb(rgb, data, name, warnings)
 
 
-def _opened(path, cancelled):
-    """The bytes of an image file and its header, which is None for an EXR."""
-    data = contents(path, EXPECTED, error=ImageError, most=_LARGEST_FILE, cancelled=cancelled)
-    return data, image_header(data, Path(path).name)
+def _contents(path, cancelled):
+    return contents(path, EXPECTED, error=ImageError, most=_LARGEST_FILE, cancelled=cancelled)
 
 
 def _pixels(data, header, name, warnings=None):
@@ -132,8 +134,8 @@ def read_measured(path, *, cancelled=None):
     """
     import cv2
 
-    data, header = _opened(path, cancelled)
-    name = Path(path).name
+    data, name = _contents(path, cancelled), Path(path).name
+    header = image_header(data, name)
     if header is None:
         return _measured_of_exr(exr_channels(data, name), name)
     if header.has_alpha or header.layout is not None:

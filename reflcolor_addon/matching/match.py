@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import Cancelled, ImageError, SeedsError
-from ..files.images import read_image
+from ..files.photo import Photo
+from ..files.photo_files import photos_of
 from ..progress import IsCancelled, Progress
 from ..scan.scan import Scan, require_scan
 from ..seeds.seeds import Seeds
@@ -237,7 +238,9 @@ def match_site(
 
 
 def opened_photos(photos, warnings=None):
-    """Return a `PhotoImage` for each photo, a path, an array, or a name and an array.
+    """Return a `PhotoImage` for each photo: a path, a `Photo`, an array, or a name and an array.
+
+    The path of an E57 stands for all photos inside.
 
     ``warnings``, a list, gets what a person should know of a file.
 
@@ -246,27 +249,37 @@ def opened_photos(photos, warnings=None):
     ImageError
         If a photo cannot be read, or is too small.
     """
-    if isinstance(photos, str | Path) or (isinstance(photos, np.ndarray) and photos.ndim == 3):
+    if isinstance(photos, str | Path | Photo) or (isinstance(photos, np.ndarray) and photos.ndim == 3):
         photos = [photos]
     names = names_of_files([photo for photo in photos if isinstance(photo, str | Path)])
     opened = []
-    for number, photo in enumerate(photos, 1):
-        if isinstance(photo, np.ndarray):
-            photo = (f"photo {number}", photo)
-        if isinstance(photo, tuple):
-            name, rgb = photo
+    for number, given in enumerate(photos, 1):
+        for photo in _photos(given, number, names, warnings):
+            rgb = photo.rgb
             if rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.dtype != np.uint8:
-                raise ImageError(f"{name}: expected (H, W, 3) uint8, found {rgb.shape} {rgb.dtype}")
-        else:
-            name, rgb = names[str(photo)], read_image(photo, warnings)
-        if min(rgb.shape[:2]) < _LEAST_SIDE:
-            raise ImageError(
-                f"{name}: has {rgb.shape[1]} x {rgb.shape[0]} pixels, expected at least {_LEAST_SIDE} on each side"
-            )
-        if any(name == other.name for other in opened):
-            raise ImageError(f"{photo if isinstance(photo, str | Path) else name}: {_TWICE}")
-        opened.append(PhotoImage(name, rgb))
+                raise ImageError(f"{photo.name}: expected (H, W, 3) uint8, found {rgb.shape} {rgb.dtype}")
+            if min(rgb.shape[:2]) < _LEAST_SIDE:
+                raise ImageError(
+                    f"{photo.name}: has {rgb.shape[1]} x {rgb.shape[0]} pixels, expected at least "
+                    f"{_LEAST_SIDE} on each side"
+                )
+            if any(photo.name == other.name for other in opened):
+                raise ImageError(f"{given if isinstance(given, str | Path) else photo.name}: {_TWICE}")
+            opened.append(PhotoImage(photo.name, rgb, photo.place))
     return opened
+
+
+def _photos(given, number, names, warnings):
+    """The `Photo` of whatever was given as one; of an E57 all that are inside."""
+    if isinstance(given, Photo):
+        return [given]
+    if isinstance(given, np.ndarray):
+        return [Photo(name=f"photo {number}", rgb=given)]
+    if isinstance(given, tuple):
+        return [Photo(name=given[0], rgb=given[1])]
+    # Photos inside an E57 have names of their own.
+    photos, name = photos_of(given, warnings), Path(given).name
+    return [replace(photo, name=names[str(given)]) if photo.name == name else photo for photo in photos]
 
 
 def names_of_files(paths):

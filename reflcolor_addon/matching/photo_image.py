@@ -6,6 +6,7 @@ from os import PathLike
 
 import numpy as np
 
+from ..files.photo import Photo
 from .edges import gradient, gradient_features
 from .models import within
 
@@ -13,9 +14,10 @@ from .models import within
 _SIDES = tuple(2048 * 2 ** (-half / 2) for half in range(13))
 _LARGEST_COLOR_SIDE = 6000
 
-_Photo = PathLike | str | np.ndarray | tuple[str, np.ndarray]
+_Photo = PathLike | str | np.ndarray | tuple[str, np.ndarray] | Photo
 Photos = _Photo | Sequence[_Photo]
-"""Paths of photos, their pixels (H, W, 3) uint8 sRGB, or names and pixels; or only one of these."""
+"""Paths of photos (an E57 stands for those inside), their pixels (H, W, 3) uint8 sRGB, or names and pixels; or only one
+of these."""
 
 
 class PhotoImage:
@@ -26,6 +28,8 @@ class PhotoImage:
     name : str
     rgb : (H, W, 3) uint8
         sRGB.
+    place : Place, optional
+        Where it was taken, as its file says.
 
     Attributes
     ----------
@@ -35,10 +39,10 @@ class PhotoImage:
         The photo, or where a side is longer than 6000 pixels what is left of it at that size.
     """
 
-    def __init__(self, name, rgb):
+    def __init__(self, name, rgb, place=None):
         import cv2
 
-        self.name = name
+        self.name, self.place = name, place
         self.height, self.width = rgb.shape[:2]
         scale = max(self.width, self.height) / _LARGEST_COLOR_SIDE
         if scale > 1:

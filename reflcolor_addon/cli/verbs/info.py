@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ...errors import UsageError
 from ...files.readers import FORMATS, SCAN_SUFFIXES
+from ...files.readers.e57_photos import photos_inside
 from ...files.readers.formats import REFUSED
 from ..options import add_reading, reading_of
 
@@ -34,12 +35,39 @@ def run(arguments, session):
         raise UsageError("SCAN: name a scan file, or ask for --formats")
     scans = session.read_scans(arguments.input, outside=arguments.outside_files, options=reading_of(arguments))
     descriptions = [describe(index, scan) for index, scan in enumerate(scans, 1)]
+    photos = photos_inside(arguments.input)
     if arguments.json:
         document = {"format": FORMAT, "version": VERSION, "file": str(arguments.input), "scans": descriptions}
+        document["photos"] = [_photo_entry(photo) for photo in photos]
         session.say(json.dumps(document, indent=2, allow_nan=False))
     else:
-        session.say("\n".join(_as_text(description) for description in descriptions))
+        session.say("\n".join([*map(_as_text, descriptions), *_photo_lines(photos, arguments.input)]))
     session.warnings += [warning for scan in scans for warning in scan.warnings]
+
+
+def _photo_entry(photo):
+    size = photo.size or (None, None)
+    return {
+        "name": photo.name,
+        "kind": photo.kind,
+        "width": size[0],
+        "height": size[1],
+        "pose": None if photo.pose is None else photo.pose.tolist(),
+        "usable": photo.usable,
+    }
+
+
+def _photo_lines(photos, path):
+    """What is inside of an E57 besides scans, and how to use it."""
+    if not photos:
+        return []
+    count = "1 photo" if len(photos) == 1 else f"{len(photos)} photos"
+    lines = [f"{count} inside; take colors from them by --photo {path}"]
+    for photo in photos:
+        size = "unknown size" if photo.size is None else f"{photo.size[0]} x {photo.size[1]} pixels"
+        placed = "no pose" if photo.pose is None else "pose given"
+        lines.append(f"   {photo.name}: {photo.kind}, {size}, {placed}{'' if photo.usable else '; cannot be used'}")
+    return lines
 
 
 def _format_line(kind):
@@ -47,11 +75,11 @@ def _format_line(kind):
 
 
 def _refused_lines():
-    """One line for each maker whose format is closed."""
+    """One line for each maker whose formats are not read."""
     makers = {}
     for suffix, way in REFUSED.items():
         makers.setdefault(way, []).append(suffix)
-    return [f"{'closed':<14} {', '.join(suffixes):<31} {way}" for way, suffixes in makers.items()]
+    return [f"{'not read':<14} {', '.join(suffixes):<31} {way}" for way, suffixes in makers.items()]
 
 
 def describe(index, scan):

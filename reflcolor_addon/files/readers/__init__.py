@@ -85,7 +85,7 @@ def _kind_of(path, start):
     named = next((kind for kind in FORMATS if name.endswith(kind.suffixes)), None)
     found = next((kind for kind in FORMATS if kind.sniff is not None and kind.sniff(start)), None)
     if named is None and (way := REFUSED.get(path.suffix.lower())):
-        raise ScanError("{file}: its format is closed. It is of {way}", file=path.name, way=way)
+        raise ScanError("{file}: this format is not read. {way}", file=path.name, way=way)
     if named is None:
         known = ", ".join(SCAN_SUFFIXES)
         if found is None:

@@ -204,7 +204,7 @@ class Settled:
         turn = infer_turn(self.points, self.valid)
         if not turn.certain:
             self._warn("its points do not show which way is up; turn or flip it if it looks wrong")
-        elif turn.transposed and self._camera is None and up is Z_UP:
+        elif turn.transposed and (up is Z_UP or up is self._camera):
             self._warn("its rows and columns are swapped in the file; they were brought in order")
         if turn[:3] != AS_STORED[:3]:
             self.order.turned(turn)

@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from ...messages import Message
+from ..models import Camera
 from .pairs import LEAST_PAIRS, camera_from_pairs
 from .refinement import HandPairs
 from .registration import Registration, confirmed, register
@@ -86,6 +87,8 @@ def located(scans, views, hand, photo, step, registered=None):
             anchor = _surest(scans, found, scan)
             known = None if anchor is None else _known_from(scans[anchor], found[anchor], scan, own_views, photo, step)
             if known is None or not known.verified:
+                known = _as_stated(scan, own_views, photo, step) or known
+            if known is None or not known.verified:
                 known = _judged(scan, photo, registered(number, partial(register, own_views, photo, step=step)))
             found[number] = replace(known, warnings=of_pairs[number] + known.warnings)
     for number, (scan, own_views) in enumerate(zip(scans, views, strict=True)):
@@ -117,6 +120,16 @@ def _known_from(anchor, location, scan, views, photo, step):
         return _judged(scan, photo, again)
     note = Message("shows {other}; too little of {scan} to take colors from", other=anchor.name, scan=scan.name)
     return Location(again, False, None, note)
+
+
+def _as_stated(scan, views, photo, step):
+    """The location that a photo's file states, if it stands the test; None where it does not, or states none."""
+    if photo.place is None:
+        return None
+    step(f"{photo.name}: trying its place in the file")
+    turn, center = photo.place.seen_from(scan.pose)
+    again = confirmed(views, photo, Camera(turn, center, photo.place.focal_px, 0.0, photo.width, photo.height))
+    return _judged(scan, photo, again) if again.accepted else None
 
 
 def _judged(scan, photo, registration):
