@@ -109,7 +109,7 @@ def matched(installed_blender, monkeypatch):
     match = importlib.import_module(f"{EXTENSION}.reflcolor_addon.matching.match")
     given = {}
 
-    def match_site(scans, photos, settings, *, hand, kept, progress, cancelled):
+    def match_site(scans, photos, settings, *, hand, kept, progress, cancelled, registered=None):
         given.update(scans=scans, hand=hand, kept=kept)
         name = photos[0].name
         found = []

@@ -54,13 +54,14 @@ def test_a_black_and_white_photo_is_told(room, photo):
     assert matching.warnings == ("old.png: is black and white, it gives no colors",)
 
 
-def test_two_photos_of_one_name_are_refused(room, photo, tmp_path):
+def test_two_photos_of_one_name_are_told_apart_by_their_folders_and_one_given_twice_is_refused(photo, tmp_path):
     paths = [tmp_path / folder / "photo.png" for folder in "ab"]
     for path in paths:
         path.parent.mkdir()
         assert cv2.imwrite(str(path), photo)
-    with pytest.raises(ImageError, match=r"b.photo\.png: another photo has the same name; give each photo once"):
-        match_seeds(room, paths, AS_PUBLISHED)
+    assert [opened.name for opened in opened_photos(paths)] == ["a/photo.png", "b/photo.png"]
+    with pytest.raises(ImageError, match=r"a.photo\.png: another photo has the same name; give each photo once"):
+        opened_photos([paths[0], paths[0]])
 
 
 def test_two_hundred_megapixels_are_reduced_and_their_points_counted_in_full(room, photo):
