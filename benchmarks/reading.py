@@ -1,11 +1,11 @@
 """How fast scans are read, beside the libraries' own readers, and how that grows: python -m benchmarks.reading
 
-    python -m benchmarks.reading                 PTX beside numpy.loadtxt, E57 beside pye57
-    python -m benchmarks.reading --growth [MEGAPIXELS ...]    E57 from 4 to 40 megapixels: seconds and memory
+    python -m benchmarks.reading                              PTX beside numpy.loadtxt, E57 beside pye57
+    python -m benchmarks.reading --growth [MEGAPIXELS ...]    E57 from 4 to 40 megapixels
 
 Seconds are of the processor, medians. E57 is read by a child process; its seconds are told apart, since a plain reader
-has none. Every size of the growth is read in a process of its own; what was measured is kept in build/bench-reading/.
-Linux only.
+has none. Growth is that of seconds and memory: of reading, and of reading, colorizing from 200 seeds and saving as PLY,
+without Blender, each run a process of its own. What was measured is kept in build/bench-reading/. Linux only.
 """
 
 import argparse
@@ -19,7 +19,7 @@ import pye57
 
 from benchmarks import geodesic_cases, run_apart
 from benchmarks.geodesic_tables import ROOT, head, row
-from reflcolor_addon import read_scans
+from reflcolor_addon import Seeds, read_scans
 from reflcolor_addon.files.writers import write_e57, write_ptx
 
 FOLDER = ROOT / "build" / "bench-reading"
@@ -96,31 +96,38 @@ def beside_pye57(rounds):
         row(f"{rows} x {columns}", f"{ours:.2f}", f"{child:.2f}", f"{theirs:.2f}", f"{ours / theirs:.2f}")
 
 
+def job(path):
+    """The arguments of a run that reads, colorizes and saves."""
+    seeds, side = FOLDER / f"{path.stem}.seeds.json", int(path.stem.rpartition("x")[2])
+    if not seeds.is_file():
+        rng = np.random.default_rng(0)
+        rows, cols = np.unique(rng.integers(0, side, (200, 2)), axis=0).T
+        Seeds(rows, cols, rng.integers(0, 256, (len(rows), 3))).save(seeds)
+    return ["reflcolor_addon", "colorize", path, "--seeds", seeds, "-o", FOLDER / "out.ply"]
+
+
 def growth(megapixels, rounds):
-    """Seconds and memory of reading an E57, by its pixels."""
+    """Seconds and memory by the pixels of an E57."""
     record = FOLDER / "growth.json"
     known = json.loads(record.read_text()) if record.is_file() else {}
-    head(
-        "Reading an E57",
-        "megapixels",
-        "seconds",
-        "to the smallest, per pixel",
-        "peak, MB",
-        "to the smallest, per pixel",
-    )
-    first = None
-    for size in megapixels:
-        side = round((size * 1e6) ** 0.5)
-        path = scan_file(side, side, ".e57")
-        times = known.setdefault(str(size), [])
-        while len(times) < rounds:
-            command = [sys.executable, "-m", "benchmarks.reading", "--one", str(path)]
-            times.append(run_apart.measured(command))
-            record.write_text(json.dumps(known))
-        seconds, peak = (statistics.median(each[key] for each in times[:rounds]) for key in ("processor", "bytes"))
-        first = first or (size, seconds, peak)
-        shares = (seconds / size / (first[1] / first[0]), peak / size / (first[2] / first[0]))
-        row(size, f"{seconds:.1f}", f"{shares[0]:.2f}", f"{peak / 1e6:.0f}", f"{shares[1]:.2f}")
+    runs = {
+        "read": lambda path: ["benchmarks.reading", "--one", path],
+        "read, colorize and save": job,
+    }
+    for name, arguments in runs.items():
+        head(name, "megapixels", "seconds", "a pixel, to the first", "peak, MB", "a pixel, to the first")
+        first = None
+        for size in megapixels:
+            side = round((size * 1e6) ** 0.5)
+            command = [sys.executable, "-m", *map(str, arguments(scan_file(side, side, ".e57")))]
+            times = known.setdefault(f"{name} {size:g}", [])
+            while len(times) < rounds:
+                times.append(run_apart.measured(command))
+                record.write_text(json.dumps(known))
+            seconds, peak = (statistics.median(each[key] for each in times[:rounds]) for key in ("processor", "bytes"))
+            first = first or (seconds / size, peak / size)
+            shares = (seconds / size / first[0], peak / size / first[1])
+            row(f"{size:g}", f"{seconds:.1f}", f"{shares[0]:.2f}", f"{peak / 1e6:.0f}", f"{shares[1]:.2f}")
 
 
 def main():

@@ -6,6 +6,12 @@ _DARKEST = 16.0
 """Levels of 255 that the brightest color must reach on a stated scale for that scale to be believed."""
 
 
+def stacked(channels):
+    """Return the (N, 3) of three (N,) columns, in 8 bits where they hold nothing else: an eighth of the memory."""
+    levels = [_levels(channel) for channel in channels]
+    return np.stack(channels if any(level is None for level in levels) else levels, axis=-1)
+
+
 def scaled_colors(values, limits, warn):
     """Return colors in 8 bits.
 

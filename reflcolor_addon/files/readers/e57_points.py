@@ -6,7 +6,7 @@ import numpy as np
 
 from ...messages import Message
 from .angle import gridded_by_angle
-from .colors import scaled_colors
+from .colors import scaled_colors, stacked
 from .e57_grid import IndexGrid
 from .e57_header import CARTESIAN, CARTESIAN_STATE, COLOR, INDEX, SPHERICAL, SPHERICAL_STATE
 from .grid import UnusableScan
@@ -125,7 +125,7 @@ def _color(columns, header, warn):
     invalid = columns.pop("isColorInvalid", None)
     if not header.has(COLOR):
         return None
-    color = np.stack([columns.pop(channel) for channel in COLOR], axis=-1)
+    color = stacked([columns.pop(channel) for channel in COLOR])
     limits = [header.limits[channel] for channel in COLOR]
     scale = None if None in limits[0] or len(set(limits)) > 1 else limits[0]
     if invalid is not None:
