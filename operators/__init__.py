@@ -22,6 +22,7 @@ _registration = Registration(
         "apply_preset",
         "add_preset",
         "colorize",
+        "make_texture",
         "evaluate",
         "show_look",
         "copy_provenance",

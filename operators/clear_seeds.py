@@ -1,12 +1,13 @@
-"""Remove all seeds of a scan."""
+"""Remove all seeds of a scan, and what photos saw of it."""
 
 import bpy
 
 from .scene import polls
+from .scene.photo_colors import keep_observed
 
 
 class REFLCOLOR_OT_clear_seeds(bpy.types.Operator):
-    """Remove all seeds of the scan"""
+    """Remove all seeds of the scan, and the colors that photos saw of it"""
 
     bl_idname = "reflcolor.clear_seeds"
     bl_label = "Clear Seeds"
@@ -17,7 +18,9 @@ class REFLCOLOR_OT_clear_seeds(bpy.types.Operator):
         return polls.has_own_scan(cls, context) and polls.has_seeds(cls, context)
 
     def execute(self, context):
-        polls.scan_object(context).reflcolor.seeds.clear()
+        obj = polls.scan_object(context)
+        obj.reflcolor.seeds.clear()
+        keep_observed(obj, None)
         return {"FINISHED"}
 
 

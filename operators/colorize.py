@@ -7,6 +7,7 @@ from ..reflcolor_addon.batch.scan_job import ScanJob
 from .scene import polls
 from .scene.colorized_object import show_colorization
 from .scene.notices import tell, tell_together
+from .scene.photo_colors import observed_reader
 from .scene.provenance import record_provenance, window_report
 from .scene.scan_object import grid_indices, scan_reader
 from .scene.seed_list import seeds_of
@@ -68,6 +69,7 @@ def _job(obj, settings):
         name=obj.name,
         scan=scan_reader(obj),
         seeds=seeds_of(obj),
+        observed=observed_reader(obj),
         colorization=live_update.finished(obj, settings),
     )
 

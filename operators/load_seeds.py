@@ -10,6 +10,7 @@ from ..reflcolor_addon.files.photo_files import photos_of
 from ..reflcolor_addon.seeds.seeds import Seeds, find_photo
 from .scene import polls
 from .scene.notices import tell
+from .scene.photo_colors import keep_observed
 from .scene.photos import add_photos
 from .scene.provenance import record_seeds_file
 from .scene.reports import reported
@@ -48,6 +49,7 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
                 add_photos(context, photos_of(path), path)
         if self.replace:
             obj.reflcolor.seeds.clear()
+            keep_observed(obj, None)
         append_seeds(obj, seeds)
         record_seeds_file(obj, self.filepath, others=not self.replace)
         tell(self, obj, told("Loaded {count} seeds", count=len(seeds)), warnings, seeds)

@@ -9,6 +9,7 @@ from ..reflcolor_addon.matching import draw_matches
 from .scene import polls
 from .scene.images import write_image
 from .scene.notices import tell, tell_together
+from .scene.photo_colors import keep_cameras, keep_observed
 from .scene.photos import photo_of
 from .scene.provenance import record_matching
 from .scene.scan_object import SHIFT, own_image, scan_reader
@@ -61,6 +62,9 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
             if obj is None or not obj.reflcolor.rows:
                 self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=job.name))
                 continue
+            # Raises where the mesh cannot take them, before any seed is changed.
+            keep_observed(obj, job.observed)
+            keep_cameras(obj, job.matching.photos)
             take_over_seeds(obj, job.seeds)
             record_matching(obj, job.matching, self._settings, MATCH_NAMES)
             obj.reflcolor.matches_image = write_image(

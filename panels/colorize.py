@@ -45,6 +45,7 @@ class Colorize(Step):
         row = layout.row()
         row.scale_y = 1.5
         row.operator("reflcolor.colorize", icon="COLOR")
+        layout.operator("reflcolor.make_texture", icon="TEXTURE")
         column = layout.column()
         column.row().prop(settings, "picture_look", expand=True)
         column.prop(settings, "picture_filled")

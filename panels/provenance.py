@@ -47,6 +47,9 @@ def _draw(layout, found):
         column.label(text="Evidence", icon="CHECKMARK")
     for source, count in found.sources.items():
         column.label(text=label(EVIDENCE[source].counted, count=count), icon="BLANK1", translate=False)
+    for photo, count in found.observed:
+        seen = label("{count} pixels as {photo} shows them", count=count, photo=photo)
+        column.label(text=seen, icon="BLANK1", translate=False)
     column = layout.column(align=True)
     column.label(text="Inference", icon="OUTLINER_DATA_LIGHTPROBE")
     column.label(text=label("{count} pixels colored from them", count=found.inferred), icon="BLANK1", translate=False)

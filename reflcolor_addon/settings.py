@@ -128,6 +128,13 @@ class Settings:
         label="Light from Photo",
         help="Where light and dark come from: 0 the reflectance, which has no shadows; 1 the photo and picked colors",
     )
+    photo_colors: bool = setting(
+        False,
+        group=PROPAGATION,
+        kind=bool,
+        label="Photo Colors",
+        help="Take the color of every pixel that a verified photo saw from the photo; else from seeds alone",
+    )
     tone: float = setting(
         1.0,
         group=PROPAGATION,
@@ -286,8 +293,8 @@ class Preset:
 _ENHANCED = {"alpha": 3.0, "nearest": 8, "smoothing": 1.0, "kriging": 0.6}
 PRESETS = {
     "Natural": Preset(
-        "As Enhanced, and as light as the photo: light and dark are spread from the seeds, too",
-        _ENHANCED | {"light": 1.0},
+        "The photo's own colors where a verified one saw the scan; elsewhere as Enhanced, and as light as the photo",
+        _ENHANCED | {"light": 1.0, "photo_colors": True},
     ),
     "Enhanced": Preset(
         "What measured best on real scans: smoothed reflectance, fewer seeds per pixel, kriging",

@@ -31,7 +31,7 @@ ROOMS = {
     "seeds": {"scan", "files"},
     "geodesic": {"native", "scan"},
     "color": {"native", "scan", "files", "seeds", "geodesic"},
-    "matching": {"scan", "files", "seeds", "color"},
+    "matching": {"scan", "files", "seeds", "geodesic", "color"},
     "simulation": {"scan", "color"},
     "view": {"scan", "seeds", "color"},
     "report": {"scan", "files", "seeds", "color", "view"},

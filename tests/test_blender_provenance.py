@@ -167,7 +167,7 @@ def test_how_seeds_were_found_is_told_while_such_seeds_are_there(colorized):
     obj.reflcolor.seeds[1].reason = "pose"
     colorized.ops.reflcolor.colorize()
     found = report(colorized)
-    assert found["photos"] == [vars(match)]
+    assert found["photos"] == [vars(match) | {"observed": 0}]
     assert found["settings"]["slic_segments"] == 77
     assert [entry["role"] for entry in found["inputs"]] == ["scan", "photo"]
 

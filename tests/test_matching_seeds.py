@@ -62,6 +62,20 @@ def test_a_photo_turned_on_the_spot_is_verified_and_its_seeds_have_the_true_colo
     assert (matching.seeds.confidence[posed] > 0.4).all()
 
 
+def test_every_pixel_that_the_photo_saw_has_its_true_color(matching, room):
+    observed = matching.observed
+    assert observed.seen.sum() > 0.5 * room.valid.sum()
+    error = np.abs(observed.rgb.astype(int) - room.color).max(axis=-1)[observed.seen]
+    # Off by much only at the borders between patches.
+    assert np.median(error) <= 3 and (error < 40).mean() > 0.85
+    assert not observed.seen[~room.valid].any()
+
+
+def test_a_photo_that_is_not_verified_gives_no_observed_color(refused):
+    matching, _ = refused
+    assert matching.observed is None
+
+
 def test_seeds_lie_on_pixels_with_a_return_one_per_superpixel(matching, room):
     seeds = matching.seeds
     assert room.valid[seeds.rows, seeds.cols].all()

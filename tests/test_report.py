@@ -61,7 +61,7 @@ def test_it_says_what_was_colorized_and_how(report_of, scan):
         "reflectance": np.percentile(scan.reflectance[scan.valid].astype(float), (1, 99)).tolist(),
         "range_m": np.percentile(scan.range[scan.valid], (1, 99)).tolist(),
     }
-    assert report["result"] == {"colored": 59, "unreached": 0, "guessed": False}
+    assert report["result"] == {"colored": 59, "unreached": 0, "observed": 0, "guessed": False}
 
 
 def test_it_names_every_seed_as_it_was_used_and_as_it_was_given(report_of):

@@ -210,8 +210,8 @@ def test_the_preview_has_the_tone_coarsely_in_full_and_without_seeds(monkeypatch
     luminance, _ = normalize(scan.reflectance, scan.valid)
     live, settings = live_module._LiveScan(scan), Settings(tone=3.0)
     seeds = seeds_of(scan, spread=3)
-    full = live.full(seeds, settings, lambda: False).rgb
-    for rgb in (full, live.coarse(seeds, settings, None), live.coarse(seeds.chosen([]), settings, None)):
+    full = live.full(seeds, settings, None, lambda: False).rgb
+    for rgb in (full, live.coarse(seeds, settings, None, None), live.coarse(seeds.chosen([]), settings, None, None)):
         assert rgb @ LUMA == pytest.approx(toned(luminance, 3.0), abs=6)
     assert full.tobytes() == colorize(scan, seeds, settings).rgb.tobytes()
 

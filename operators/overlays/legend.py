@@ -49,12 +49,12 @@ def legend_of(obj):
         colors, smooth = _region_colors(min(count, _REGIONS_SHOWN)), False
         shown = min(count, _REGIONS_SHOWN)
         last = f"{count}" if shown == count else label("{shown} of {count}", shown=shown, count=count)
-        labels = (label("Seed {number}", number=1), last)
+        labels = (label(look.region, number=1), last)
     else:
         colors, smooth = _gradient_colors(look.gradient), True
         labels = tuple(number(value, high - low) for value in (low, (low + high) / 2, high))
     title = f"{label(look.title)} ({look.unit})" if look.unit else label(look.title)
-    gray = label("No seed reaches" if look.gradient is None else "Not known")
+    gray = label(look.unknown)
     return {"title": title, "colors": colors, "smooth": smooth, "labels": labels, "unknown": gray if unknown else None}
 
 

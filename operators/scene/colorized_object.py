@@ -4,9 +4,7 @@ from .images import write_image
 from .looks import refresh_look, show_look
 from .scan_object import (
     COLORIZED,
-    CONFIDENCE,
     GUESSED,
-    NEAREST_SEED,
     add_colors,
     add_values,
     grid_indices,
@@ -19,12 +17,14 @@ def write_colorization(obj, colorization):
     """Write a Colorization onto the mesh and the image of its object; what is shown stays what it is.
 
     The attribute ``confidence`` is of 0 to 1, ``nearest_seed`` the index of a seed in ``colorization.seeds``, which is
-    their order in the provenance, or -1 where none reaches. Vertices that were deleted since are left out.
+    their order in the provenance, or -1 where none reaches. ``observed`` is 1 where a photo saw the color and 0 where
+    it is inferred; ``photo`` is the index of that photo in the provenance, or -1. Vertices that were deleted since are
+    left out.
     """
     place = grid_indices(obj)
     add_colors(obj, COLORIZED, colorization.rgb[place])
-    add_values(obj, CONFIDENCE, colorization.confidence[place])
-    add_values(obj, NEAREST_SEED, colorization.nearest_seed[place])
+    for name, values in colorization.values.items():
+        add_values(obj, name, values[place])
     state = obj.reflcolor
     name = f"{obj.name} {COLORIZED}"
     state.colorized_image = write_image(own_image(obj, "colorized_image"), name, colorization.rgb, is_data=False)

@@ -18,6 +18,8 @@ from .scan_object import (
     ERROR,
     GRAY,
     NEAREST_SEED,
+    OBSERVED,
+    PHOTO,
     SCANNED,
     add_colors,
     look_at,
@@ -49,6 +51,10 @@ class Look:
     limits : (low, high) of float, or None
         The ends of the gradient; None: robust ones of the values.
     unit : str
+    region : str
+        What a region is called in the legend, by its ``number`` from 1.
+    unknown : str
+        What gray means.
     result : bool
         Whether renders and exports take these colors, too, when they are looked at.
     """
@@ -63,6 +69,8 @@ class Look:
     gradient: str | None = None
     limits: tuple[float, float] | None = None
     unit: str = ""
+    region: str = ""
+    unknown: str = n_("Not known")
     result: bool = False
 
 
@@ -108,6 +116,29 @@ LOOKS = {
         missing=n_("Colorize first"),
         values=NEAREST_SEED,
         dtype=np.int32,
+        region=n_("Seed {number}"),
+        unknown=n_("No seed reaches"),
+    ),
+    "observed": Look(
+        title="Observed",
+        description="Where a color is one that a verified photo saw there, 1, and where it is inferred from others, 0",
+        icon="HIDE_OFF",
+        colors="Observed_Map",
+        missing=n_("Colorize first"),
+        values=OBSERVED,
+        gradient="viridis",
+        limits=(0.0, 1.0),
+    ),
+    "photo": Look(
+        title="Photo",
+        description="Which photo saw each color, in a color of its own that is not the photo's; gray where none did",
+        icon="IMAGE_DATA",
+        colors="Photo_Map",
+        missing=n_("Colorize first"),
+        values=PHOTO,
+        dtype=np.int32,
+        region=n_("Photo {number}"),
+        unknown=n_("Inferred"),
     ),
     "range": Look(
         title="Range",

@@ -100,6 +100,11 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     preview_image: PointerProperty(
         name="Live Preview", description="Colors that follow the seeds until they are kept", type=bpy.types.Image
     )
+    texture_image: PointerProperty(
+        name="Texture Image",
+        description="The colors with the detail of the photos",
+        type=bpy.types.Image,
+    )
     matches_image: PointerProperty(
         name="Matches", description="Where each seed's color comes from", type=bpy.types.Image
     )

@@ -103,7 +103,7 @@ def window_report(obj, colorization, settings, given_seeds):
         The seeds before any was moved.
     """
     imported, matched = _read(obj, _IMPORTED), _read(obj, _MATCHED)
-    if not any(reason in FOUND for reason in given_seeds.reason):
+    if not any(reason in FOUND for reason in given_seeds.reason) and not colorization.observed.any():
         matched = {}
     photos = [photo["name"] for photo in matched.get("photos", [])]
     photos += [photo for photo in given_seeds.photos if photo is not None]

@@ -21,6 +21,8 @@ UV_MAP = "Scan_Grid"
 SHOWN_IN_RENDERS = (GRAY, COLORIZED, SCANNED)
 CONFIDENCE = "confidence"
 NEAREST_SEED = "nearest_seed"
+OBSERVED = "observed"
+PHOTO = "photo"
 ERROR = "error"
 SHIFT = "reflcolor_shift"
 # On meshes: what the coordinates are measured from, metres in the scanner's frame; degrees, as in `grid_mesh`.

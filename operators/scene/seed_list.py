@@ -65,6 +65,7 @@ def seeds_of(obj, *, wanted=lambda seeds: True):
         reason=[
             None if hand else FOUND_BY[number] for hand, number in zip(by_hand, seeds.found_by[chosen], strict=True)
         ],
+        locked=seeds.locked[chosen],
     )
 
 
@@ -86,8 +87,8 @@ def choose_seed(obj, index):
 def append_seeds(obj, seeds):
     """Add the core's Seeds to the object; photos are found by name among the .blend's images."""
     listed = obj.reflcolor.seeds
-    columns = (seeds.rows, seeds.cols, seeds.rgb / 255, np.nan_to_num(seeds.photo_xy), seeds.confidence)
-    for row, col, rgb, xy, confidence, photo, reason in zip(
+    columns = (seeds.rows, seeds.cols, seeds.rgb / 255, np.nan_to_num(seeds.photo_xy), seeds.confidence, seeds.locked)
+    for row, col, rgb, xy, confidence, locked, photo, reason in zip(
         *(column.tolist() for column in columns), seeds.photos, seeds.reason, strict=True
     ):
         seed = listed.add()
@@ -99,6 +100,7 @@ def append_seeds(obj, seeds):
             photo_xy=xy,
             reason=FOUND_BY.index(reason or "hand"),
             confidence=1.0 if np.isnan(confidence) else confidence,
+            locked=locked,
         )
         point_to(seed, photo=bpy.data.images.get(photo) if photo else None)
     choose_seed(obj, len(listed) - 1)

@@ -9,6 +9,8 @@ from ...reflcolor_addon.scan.object_arrays import object_arrays
 from ...reflcolor_addon.view.shown_surface import shown_surface
 from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
+from .photo_colors import keep_cameras, keep_observed
+from .photo_texture import show_texture
 from .provenance import record_provenance
 from .render import render, set_up_picture
 from .scan_object import add_scan_object
@@ -44,7 +46,8 @@ def write_results(jobs, paths, render_path, picture, progress):
         progress(0.0, "Building the scene")
         obj = _add_object(context, job)
         objects.append(obj)
-        if pictured and picture.filled:
+        # What is filled has no place on the texture.
+        if pictured and picture.filled and job.texture is None:
             surfaces[obj.name] = shown_surface(job.scan, drop_mixed=picture.drop_mixed)
     for obj in objects:
         obj.select_set(True)
@@ -63,7 +66,12 @@ def write_results(jobs, paths, render_path, picture, progress):
 def _add_object(context, job):
     obj = add_scan_object(context, object_arrays(job.scan))
     append_seeds(obj, job.colorization.seeds)
+    keep_observed(obj, job.seen())
+    if job.matching is not None:
+        keep_cameras(obj, job.matching.photos)
     show_colorization(obj, job.colorization)
+    if job.texture is not None:
+        show_texture(obj, job.texture)
     record_provenance(obj, job.report)
     return obj
 

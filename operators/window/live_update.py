@@ -13,6 +13,7 @@ from ...reflcolor_addon.view.live import LiveColorizer
 from ..scene import polls
 from ..scene.editors import redraw_editors
 from ..scene.images import put_pixels, stored_pixels
+from ..scene.photo_colors import observed_key, observed_reader
 from ..scene.scan_object import own_image, scan_reader, show_like_reflectance
 from ..scene.seed_arrays import seed_arrays
 from ..scene.seed_list import seeds_of
@@ -31,14 +32,16 @@ class _Live:
     def __init__(self, obj):
         self.place = _place(obj)
         self.colorizer = LiveColorizer(scan_reader(obj), prepare=stored_pixels)
-        self.wished = self.kept = None
+        self.wished = self.kept = self.seen = None
 
     def wish(self, obj, settings):
         """Ask for the colors of the present seeds and settings, if those are not asked for yet."""
         wanted = _wanted(obj), settings
         if self.wished != wanted:
             self.wished, self.kept = wanted, None
-            self.colorizer.wish(seeds_of(obj), settings)
+            if self.seen is None or self.seen[0] != observed_key(obj):
+                self.seen = observed_key(obj), observed_reader(obj)()
+            self.colorizer.wish(seeds_of(obj), settings, self.seen[1])
 
     def settled(self):
         """Whether the newest result is there in full."""
@@ -46,7 +49,10 @@ class _Live:
 
 
 def _wanted(obj):
-    """A value that is the same as long as the object's seeds with a color are; which are selected does not matter."""
+    """A value that is the same as long as the object's seeds with a color, and what photos saw, are.
+
+    Which seeds are selected does not matter.
+    """
     seeds = seed_arrays(obj)
     columns = (
         seeds.rows,
@@ -56,8 +62,9 @@ def _wanted(obj):
         seeds.photo_names,
         seeds.found_by,
         seeds.confidence,
+        seeds.locked,
     )
-    return hash(tuple(column[seeds.has_color].tobytes() for column in columns))
+    return hash((observed_key(obj), *(column[seeds.has_color].tobytes() for column in columns)))
 
 
 _live = None

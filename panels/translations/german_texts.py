@@ -38,6 +38,11 @@ _PANELS = {
     "Press ESC to cancel": "ESC bricht ab",
     "Row, Column": "Zeile, Spalte",
     "Seed {number}": "Saatpunkt {number}",
+    "Photo {number}": "Foto {number}",
+    "Make Texture": "Textur erzeugen",
+    "{name} has a texture of {columns} x {rows} pixels": "{name} hat eine Textur von {columns} x {rows} Pixeln",
+    "Inferred": "Erschlossen",
+    "{count} pixels as {photo} shows them": "{count} Pixel, wie {photo} sie zeigt",
     "Select Seeds": "Saatpunkte auswählen",
     "and {count} more": "und {count} weitere",
     "not kept": "nicht vermerkt",
@@ -188,6 +193,8 @@ CORE = {
     "Opening the photos": "Fotos werden geöffnet",
     "Preparing the scan": "Scan wird vorbereitet",
     "Seed {number} of {count}": "Saatpunkt {number} von {count}",
+    "Making the texture": "Textur wird erzeugt",
+    "Joining what photos saw": "Gesehenes und Erschlossenes verbinden",
     "Writing the colors": "Farben werden geschrieben",
     "no seeds: add at least one pixel with a color": (
         "keine Saatpunkte: mindestens ein Pixel mit einer Farbe hinzufügen"

@@ -92,7 +92,9 @@ _OPERATORS = {
         "Klick: setzen oder auswählen.  Strg-Klick: löschen.  X: ausgewählte löschen"
     ),
     "Remove a seed of the scan": "Einen Saatpunkt des Scans entfernen",
-    "Remove all seeds of the scan": "Alle Saatpunkte des Scans entfernen",
+    "Remove all seeds of the scan, and the colors that photos saw of it": (
+        "Alle Saatpunkte des Scans entfernen, und die Farben, die Fotos von ihm gesehen haben"
+    ),
     "Save the seeds of the scan as a JSON file, for the command line or another scan of the same place": (
         "Die Saatpunkte als JSON-Datei speichern, für die Kommandozeile oder einen anderen Scan desselben Ortes"
     ),
@@ -194,8 +196,22 @@ _SETTINGS = {
     "Fill small holes and smooth outlines in pictures; the scan's mesh stays as it was measured": (
         "In Bildern kleine Löcher füllen und Umrisse glätten; das Netz des Scans bleibt, wie es gemessen wurde"
     ),
-    "As Enhanced, and as light as the photo: light and dark are spread from the seeds, too": (
-        "Wie Verbessert, und so hell wie das Foto: auch Hell und Dunkel breiten sich von den Saatpunkten aus"
+    "The photo's own colors where a verified one saw the scan; elsewhere as Enhanced, and as light as the photo": (
+        "Die eigenen Farben des Fotos, wo ein geprüftes den Scan sah; sonst wie Verbessert, und so hell wie das Foto"
+    ),
+    "Take the color of every pixel that a verified photo saw from the photo; else from seeds alone": (
+        "Die Farbe jedes Pixels, das ein geprüftes Foto sah, vom Foto nehmen; sonst allein von den Saatpunkten"
+    ),
+    "Where a color is one that a verified photo saw there, 1, and where it is inferred from others, 0": (
+        "Wo eine Farbe die ist, die ein geprüftes Foto dort sah, 1, und wo sie aus anderen erschlossen ist, 0"
+    ),
+    "Make an image with the detail of the photos, and show it on the scan instead of the colors of its vertices": (
+        "Ein Bild mit den Einzelheiten der Fotos erzeugen und auf dem Scan statt der Farben seiner Punkte zeigen"
+    ),
+    "Pixels along the longer side of the image": "Pixel entlang der längeren Seite des Bildes",
+    "The colors with the detail of the photos": "Die Farben mit den Einzelheiten der Fotos",
+    "Which photo saw each color, in a color of its own that is not the photo's; gray where none did": (
+        "Welches Foto jede Farbe sah, in einer eigenen Farbe, die nicht die des Fotos ist; grau, wo keines"
     ),
     "How fast a seed's influence falls with the geodesic distance; higher makes borders sharper": (
         "Wie schnell der Einfluss eines Saatpunkts mit der geodätischen Entfernung fällt; höher macht Grenzen schärfer"

@@ -4,13 +4,15 @@ The command line and batches run a whole `Plan`. Blender's operators make jobs f
 same steps; they read and write the scene instead of files.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..color.colorization import Colorization
 from ..color.colorizer import colorize
 from ..errors import ScanError, SeedsError
 from ..files.images import read_image
-from ..matching import match_site
+from ..matching import match_site, shots_of, texture
 from ..messages import Message, about_scan
 from ..progress import part
 from ..seeds.scan_colors import seeds_from_color
@@ -78,6 +80,9 @@ def run_plan(plan, session):
                 with timed(job.times, "colorize"):
                     progress = part(session.progress, number, count, job.name)
                     colorize_job(job, plan.settings, progress=progress, cancelled=session.cancelled)
+                if plan.texture:
+                    with timed(job.times, "texture"):
+                        _add_texture(job, plan, progress, session.cancelled)
                 session.warnings += _named(job, count, job.colorization.warnings)
             write(job)
 
@@ -102,6 +107,8 @@ def _take_colors(jobs, plan):
             rgb=rgb,
             confidence=np.zeros(shape, np.float32),
             nearest_seed=np.full(shape, -1, np.int32),
+            observed=np.zeros(shape, np.float32),
+            photo=np.full(shape, -1, np.int16),
             seeds=job.seeds,
             normalization={"reflectance": (0.0, 0.0), "range": (0.0, 0.0)},
         )
@@ -169,18 +176,36 @@ def find_seeds(jobs, photos, settings, *, registered=None, progress=None, cancel
         cancelled=cancelled,
     )
     for job, matching in zip(jobs, matchings, strict=True):
-        job.matching, job.seeds = matching, matching.seeds
+        job.seeds, job.observed = matching.seeds, matching.observed
+        # The job itself lets its observed colors go when nothing needs them any more.
+        job.matching = replace(matching, observed=None)
 
 
 def colorize_job(job, settings, *, progress=None, cancelled=None):
     """Colorize the scan of a job, unless it is colorized already."""
     if job.colorization is None:
         require_reflectance(job)
-        job.colorization = colorize(job.opened(), job.seeds, settings, progress=progress, cancelled=cancelled)
+        job.colorization = colorize(
+            job.opened(), job.seeds, settings, job.seen(), progress=progress, cancelled=cancelled
+        )
+
+
+def _add_texture(job, plan, progress, cancelled):
+    shots, found = shots_of(plan.photos, job.matching), job.colorization
+    job.texture = texture(
+        job.scan,
+        found.rgb,
+        found.observed,
+        found.photo,
+        shots,
+        plan.texture,
+        progress=progress,
+        cancelled=cancelled,
+    )
 
 
 def colorize_jobs(jobs, settings, *, progress=None, cancelled=None):
     """Colorize one job after the other, each with an equal share of the progress; no scan is kept."""
     for number, job in enumerate(jobs):
         colorize_job(job, settings, progress=part(progress, number, len(jobs), job.name), cancelled=cancelled)
-        job.scan = None
+        job.scan = job.observed = None

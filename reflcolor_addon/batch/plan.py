@@ -90,6 +90,8 @@ class Plan:
         Let a `.scan.json` name images outside of its own folder.
     reading : ReadOptions
         How the scans are to be read.
+    texture : int, optional
+        Texels along the longer side of an image of the photos' resolution; without it colors are at the vertices.
     picture : Picture
         How scenes and pictures show the scans.
     skip_unshown : bool
@@ -108,6 +110,7 @@ class Plan:
     colors: Path | None = None
     outside_files: bool = False
     reading: ReadOptions = AS_IT_IS
+    texture: int | None = None
     picture: Picture = field(default_factory=Picture)
     skip_unshown: bool = False
 

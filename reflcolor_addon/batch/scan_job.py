@@ -4,7 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from ..color.colorization import Colorization
+from ..color.observed import Observed
 from ..errors import ScanError
 from ..matching import Matching
 from ..scan.scan import Scan
@@ -32,6 +35,9 @@ class ScanJob:
         Its place in the file, from 1.
     seeds : Seeds, optional
         What colors it, as given or found.
+    observed : Observed or callable, optional
+        What verified photos saw of it; or a function without arguments that returns it, or None. None when nothing
+        needs it any more.
     hand, kept : Seeds, optional
         Seeds picked by hand, and seeds that stay, where others are found; see `match_photos`.
     inputs : list of (str, Path)
@@ -41,6 +47,8 @@ class ScanJob:
     matching : Matching, optional
         How its seeds were found.
     colorization : Colorization, optional
+    texture : (h, w, 3) uint8, optional
+        The same on an image of more pixels, see `matching.texture`.
     report : dict, optional
     times : dict
         Seconds that each step took.
@@ -52,12 +60,14 @@ class ScanJob:
     path: Path | None = None
     index: int | None = None
     seeds: Seeds | None = None
+    observed: Observed | Callable[[], Observed | None] | None = None
     hand: Seeds | None = None
     kept: Seeds | None = None
     inputs: list[tuple[str, Path]] = field(default_factory=list)
     outputs: list[Output] = field(default_factory=list)
     matching: Matching | None = None
     colorization: Colorization | None = None
+    texture: np.ndarray | None = None
     report: dict | None = None
     times: dict[str, float] = field(default_factory=dict)
 
@@ -67,12 +77,19 @@ class ScanJob:
             self.scan = self.scan()
         return self.scan
 
+    def seen(self):
+        """Return what photos saw, which is there from now on, or None."""
+        if callable(self.observed):
+            self.observed = self.observed()
+        return self.observed
+
 
 def surface_of(job):
     """Return the surface of a job's scan as it is written into meshes; without colors as long as there are none."""
     if job.colorization is None:
         return ScanSurface(job.scan, None)
-    return ScanSurface(job.scan, job.colorization.rgb, job.colorization.values)
+    values, textured = job.colorization.values, job.texture is not None
+    return ScanSurface(job.scan, job.colorization.rgb, values, split_seam=textured)
 
 
 def require_reflectance(job):

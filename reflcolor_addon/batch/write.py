@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..files.atomic import written_atomically
-from ..files.images import write_jpeg, write_png
+from ..files.images import png_bytes, write_jpeg, write_png
 from ..files.writers import MESH_WRITERS
 from ..files.writers.scans_back import ColoredScan, write_scans_back
 from ..matching import draw_matches
@@ -74,9 +74,10 @@ class _Writer:
             self._write_meshes([job], job.outputs)
             self._write_scenes([job], job.outputs)
         # Nothing that costs more than this is kept until all scans are colorized.
-        self._rest.append((job, None if job.colorization is None else job.colorization.rgb))
+        colors = None if job.colorization is None else job.colorization.rgb
+        self._rest.append((job, colors if job.texture is None else job.texture))
         if not self._shared:
-            job.scan = job.colorization = None
+            job.scan = job.observed = job.colorization = job.texture = None
 
     def finish(self):
         """Write the scenes that hold all scans, images, and last the reports: those say how long the rest took."""
@@ -114,7 +115,7 @@ class _Writer:
     def _let_go(self):
         for job, _ in self._rest:
             yield job
-            job.scan = job.colorization = None
+            job.scan = job.observed = job.colorization = job.texture = None
 
     def _report(self, job):
         for role, path in job.inputs:
@@ -141,7 +142,10 @@ class _Writer:
             if output.kind == MESH:
                 write = MESH_WRITERS[output.path.suffix.lower()]
                 surfaces = [surface_of(job) for job in jobs]
-                write(surfaces, output.path, progress=self._session.progress, cancelled=self._session.cancelled)
+                session, options = self._session, {}
+                if self._plan.texture and output.path.suffix.lower() == ".glb":
+                    options = {"textures": [png_bytes(job.texture, output.path) for job in jobs]}
+                write(surfaces, output.path, progress=session.progress, cancelled=session.cancelled, **options)
 
     def _write_back(self, jobs, path):
         colored = [

@@ -152,7 +152,8 @@ def _add_settings(parser, group):
         if setting.group == group:
             text = f"{setting.help[0].lower()}{setting.help[1:]}"
             if setting.kind is bool:
-                parser.add_argument(f"--{name}", action="store_true", default=argparse.SUPPRESS, help=text)
+                option = f"--{name.replace('_', '-')}"
+                parser.add_argument(option, action=argparse.BooleanOptionalAction, default=argparse.SUPPRESS, help=text)
                 continue
             text += f"; {setting.expected(named=True)}"
             parser.add_argument(

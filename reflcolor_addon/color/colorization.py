@@ -20,6 +20,10 @@ class Colorization:
         and with what of the color could not be shown at the luminance there; 0 where no seed reaches.
     nearest_seed : (H, W) int32
         Index of the seed at the least geodesic distance; -1 where none reaches.
+    observed : (H, W) float32
+        How far each color is one that a photo saw there, 0..1; the rest is inferred.
+    photo : (H, W) int16
+        Index of the photo that led; -1 where a color is inferred.
     seeds : Seeds
         The seeds as used: those on pixels without a return are moved.
     warnings : tuple of str
@@ -38,6 +42,8 @@ class Colorization:
     rgb: np.ndarray
     confidence: np.ndarray
     nearest_seed: np.ndarray
+    observed: np.ndarray
+    photo: np.ndarray
     seeds: Seeds
     warnings: tuple[str, ...] = ()
     normalization: dict = field(default_factory=dict)
@@ -46,4 +52,9 @@ class Colorization:
     @property
     def values(self):
         """(H, W) arrays of what is known of every color, by the name of the attribute that it is written as."""
-        return {"confidence": self.confidence, "nearest_seed": self.nearest_seed}
+        return {
+            "confidence": self.confidence,
+            "nearest_seed": self.nearest_seed,
+            "observed": self.observed,
+            "photo": self.photo,
+        }

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import Cancelled
+from ..errors import Cancelled, ReflcolorError
 from ..files.memory import require_memory
 from ..geodesic.blending import left_out
 from ..geodesic.engines import engine_for
@@ -25,6 +25,7 @@ from .colorization import Colorization
 from .kriging import MAX_SEEDS, Kriging, pixel_features
 from .luminance import CHROMINANCE, channels_of, from_one_seed, lightness, seed_values
 from .mixing import PICKED_GAIN, mixture, nearest_other, picked_by_a_person
+from .observed import Observed, inferred_only, joined, outranked
 from .tone import tone_to_try
 
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
@@ -34,11 +35,11 @@ _HALF_CONFIDENCE_LEVELS = 5.0
 _POLL_S = 0.02
 _DEFAULT_MEMORY = 1 << 30
 # Of the progress; the colors are written after both.
-_PROPAGATED, _COLORED = 0.75, 0.95
+_PROPAGATED, _COLORED, _JOINED = 0.75, 0.95, 0.98
 # Between two looks at the wish to cancel.
 _PAINTED_PIXELS = 1 << 19
-_KRIGING_BYTES = 100
-"""What kriging holds at its worst moment, per pixel."""
+_KRIGING_BYTES, _JOIN_BYTES = 100, 120
+"""What kriging, and joining what photos saw, hold at their worst moment, per pixel."""
 
 
 _GUESSED = Message("the colors are guesses: no seed was picked by a person or seen by a photo that was verified")
@@ -111,7 +112,7 @@ class Colorizer:
         self._median = float(np.median(self._luminance[scan.valid])) if scan.valid.any() else 0.0
         self._range_image, range_limits = normalize(scan.range, scan.valid)
         self._normalization = {"reflectance": reflectance_limits, "range": range_limits}
-        self._held = None
+        self._held = self._seen = None
         self.settings: Settings = None  # type: ignore[assignment]  # until the next line
         self._use(settings)
 
@@ -124,6 +125,7 @@ class Colorizer:
         self,
         seeds: Seeds,
         settings: Settings | None = None,
+        observed: Observed | None = None,
         *,
         progress: Progress | None = None,
         cancelled: IsCancelled | None = None,
@@ -134,8 +136,10 @@ class Colorizer:
         require_seeds(seeds)
         seeds, warnings = seeds.placed_on(self.scan)
         spread, more = self.spread(seeds, settings, progress=progress, cancelled=cancelled)
-        progress(_COLORED, "Writing the colors")
-        unreached = int(np.count_nonzero(self.scan.valid & ~spread.reached))
+        progress(_COLORED, "Joining what photos saw")
+        colored = self.joined(spread, seeds, observed)
+        progress(_JOINED, "Writing the colors")
+        unreached = int(np.count_nonzero(self.scan.valid & ~colored.reached))
         if unreached:
             more.append(
                 Message(
@@ -150,17 +154,57 @@ class Colorizer:
             warnings.insert(
                 0, Message("the colors are dark because most of the reflectance is; try tone {tone:g}", tone=tone)
             )
-        rgb, lost = self._paint(spread.values, spread.reached, cancelled)
+        rgb, lost = self._paint(colored.values, colored.reached, cancelled)
         progress(1.0, "Colorized")
         return Colorization(
             rgb=rgb,
-            confidence=(spread.confidence / (1 + lost / _HALF_CONFIDENCE_LEVELS)).astype(np.float32),
+            confidence=(colored.confidence / (1 + lost / _HALF_CONFIDENCE_LEVELS)).astype(np.float32),
             nearest_seed=spread.nearest_seed.copy(),
+            observed=colored.weight,
+            photo=colored.photo,
             seeds=seeds,
             warnings=(*warnings, *more),
             normalization=self._normalization,
             method=dict(spread.method),
         )
+
+    def joined(self, spread, seeds, observed):
+        """Return what `spread` found as `Colored`, with what photos saw where the settings ask for that.
+
+        Parameters
+        ----------
+        spread : Spread
+            Of these seeds, found just before.
+        seeds : Seeds
+            On pixels with a return.
+        observed : Observed or None
+
+        Raises
+        ------
+        ReflcolorError
+            If what photos saw is of another size than the scan.
+        """
+        if observed is None or not self.settings.photo_colors:
+            return inferred_only(spread)
+        if observed.weight.shape != self.scan.shape:
+            raise ReflcolorError(
+                "{scan}: expected observed colors of {expected}, found {found}",
+                scan=self.scan.name,
+                expected=self.scan.shape,
+                found=observed.weight.shape,
+            )
+        ranks = seeds.of_a_person.tobytes(), self.settings.light > 0
+        held = self._seen
+        if held is None or held[0] is not spread or held[1] is not observed or held[2] != ranks:
+            self._seen = None
+            rows, columns = self.scan.shape
+            require_memory(_JOIN_BYTES * rows * columns, f"{self.scan.name}: joining what photos saw")
+            ranked = outranked(observed, seeds, self._graph, self.settings.alpha)
+            self._seen = spread, observed, ranks, joined(spread, ranked, seeds, self._graph, self.settings)
+        colored = self._seen[-1]
+        if not self._fields.limit:
+            self._seen = None
+        return colored
 
     def spread(self, seeds, settings=None, *, progress=None, cancelled=None):
         """Spread the seeds' values, without making colors of them; errors are those of ``colorize``.
@@ -193,8 +237,8 @@ class Colorizer:
                     count=len(seeds),
                 )
             )
-        # Neither the tone nor how much of the seeds' luminance is taken has a part in what is spread.
-        asked = replace(self.settings, tone=1.0, light=float(self.settings.light > 0))
+        # The tone, how much of the seeds' luminance is taken, and what photos saw have no part in what is spread.
+        asked = replace(self.settings, tone=1.0, light=float(self.settings.light > 0), photo_colors=False)
         wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), asked
         if self._held is None or self._held[0] != wanted:
             self._held = None
@@ -257,16 +301,15 @@ class Colorizer:
             self._features = None
         elif (before.beta, before.neighbors) == (settings.beta, settings.neighbors):
             return
-        self._engine = engine_for(
-            PixelGraph(
-                luminance=self._smoothed,
-                range_image=self._range_image,
-                valid=self.scan.valid,
-                beta=settings.beta,
-                neighbors=settings.neighbors,
-                wrap=self.scan.full_turn,
-            )
+        self._graph = PixelGraph(
+            luminance=self._smoothed,
+            range_image=self._range_image,
+            valid=self.scan.valid,
+            beta=settings.beta,
+            neighbors=settings.neighbors,
+            wrap=self.scan.full_turn,
         )
+        self._engine = engine_for(self._graph)
         self._fields.clear()
         self._forget_sums()
 
@@ -396,6 +439,7 @@ def colorize(
     scan: Scan,
     seeds: Seeds,
     settings: Settings | None = None,
+    observed: Observed | None = None,
     *,
     progress: Progress | None = None,
     cancelled: IsCancelled | None = None,
@@ -408,6 +452,9 @@ def colorize(
     seeds : Seeds
     settings : Settings, optional
         The paper's by default.
+    observed : Observed, optional
+        What verified photos saw, as `match_photos` finds it. Where they saw a pixel, and ``settings.photo_colors`` asks
+        for it, its color is theirs; only a seed that a person picked or locked tells more.
     progress : callable, optional
         Called as ``progress(fraction, text)`` with a fraction of 0 to 1.
     cancelled : callable, optional
@@ -422,7 +469,7 @@ def colorize(
     SeedsError
         If there are no seeds, or one is outside the grid.
     ReflcolorError
-        If the memory that is free will not do.
+        If the memory that is free will not do, or ``observed`` has another size.
     Cancelled
         If ``cancelled()`` returned True.
 
@@ -442,4 +489,6 @@ def colorize(
     ((20, 30, 3), dtype('uint8'), (20, 30))
     """
     # Nothing is colorized a second time, so no field needs to be kept.
-    return Colorizer(scan, settings, memory=0).colorize(seeds, progress=progress, cancelled=cancelled)
+    return Colorizer(scan, settings, memory=0).colorize(
+        seeds, observed=observed, progress=progress, cancelled=cancelled
+    )

@@ -191,7 +191,18 @@ def write_jpeg(path, image, quality=85):
     _write_encoded(path, image, ".jpg", "JPEG", (cv2.IMWRITE_JPEG_QUALITY, quality))
 
 
+def png_bytes(image, path):
+    """Return an image, as `write_png` takes it, as the bytes of a PNG; ``path`` is named in the OutputError."""
+    return _encoded(path, image, ".png", "PNG")
+
+
 def _write_encoded(path, image, suffix, name, options=()):
+    data = _encoded(path, image, suffix, name, options)
+    with written_atomically(path) as temporary:
+        temporary.write_bytes(data)
+
+
+def _encoded(path, image, suffix, name, options=()):
     import cv2
 
     image = np.asarray(image)
@@ -205,8 +216,7 @@ def _write_encoded(path, image, suffix, name, options=()):
         reason = "the encoder refused it"
     if not done:
         raise OutputError("{path}: cannot be encoded as {name} ({reason})", path=path, name=name, reason=reason)
-    with written_atomically(path) as temporary:
-        temporary.write_bytes(data)
+    return data.tobytes()
 
 
 def _decoded(data, flags, name, warnings=None):

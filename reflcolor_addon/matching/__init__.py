@@ -1,6 +1,19 @@
 """Method 2: seeds from photos, found by the program."""
 
 from .draw import draw_matches
-from .match import Matching, PhotoMatch, match_photos, match_seeds, match_site
+from .match import Matching, PhotoMatch, match_photos, match_seeds, match_site, shots_of
+from .transfer.texture import LARGEST, Shot, texture, texture_shape
 
-__all__ = ["Matching", "PhotoMatch", "draw_matches", "match_photos", "match_seeds", "match_site"]
+__all__ = [
+    "LARGEST",
+    "Matching",
+    "PhotoMatch",
+    "Shot",
+    "draw_matches",
+    "match_photos",
+    "match_seeds",
+    "match_site",
+    "shots_of",
+    "texture",
+    "texture_shape",
+]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..color.observed import Observed
 from ..errors import Cancelled, ImageError, SeedsError
 from ..files.photo import Photo
 from ..files.photo_files import photos_of
@@ -17,6 +18,7 @@ from . import site
 from .photo_image import PhotoImage, Photos
 from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .scan_image import toned
+from .transfer.texture import Shot
 
 _LEAST_SIDE = 16
 _LEAST_CHROMA = 6
@@ -66,11 +68,15 @@ class Matching:
     photos : tuple of PhotoMatch
     warnings : tuple of str
         One line each, for a person; of a photo that could not be verified there is always one.
+    observed : Observed or None
+        The colors of all pixels that verified photos saw; ``photo`` counts the photos as they were given. None where no
+        photo is verified.
     """
 
     seeds: Seeds
     photos: tuple[PhotoMatch, ...]
     warnings: tuple[str, ...]
+    observed: Observed | None = None
 
 
 def match_seeds(
@@ -226,13 +232,17 @@ def match_site(
         matchings = [_as_published(scan, opened, settings, step) for scan in scans]
     else:
         matchings = [
-            Matching(seeds, tuple(map(_report, opened, locations)), tuple(warnings))
-            for seeds, locations, warnings in site.verified(scans, opened, hand, settings, step, registered)
+            Matching(seeds, tuple(map(_report, opened, locations)), tuple(warnings), observed)
+            for seeds, locations, observed, warnings in site.verified(scans, opened, hand, settings, step, registered)
         ]
     progress(1.0, "Matched")
     gray = tuple(f"{photo.name}: is black and white, it gives no colors" for photo in opened if _is_gray(photo.rgb))
     return [
-        Matching(joined(picked, stays, matching.seeds), matching.photos, (*of_files, *gray, *matching.warnings))
+        replace(
+            matching,
+            seeds=joined(picked, stays, matching.seeds),
+            warnings=(*of_files, *gray, *matching.warnings),
+        )
         for matching, picked, stays in zip(matchings, hand, kept, strict=True)
     ]
 
@@ -315,7 +325,7 @@ def joined(*groups):
         taken.update(places)
     arrays = {
         name: np.concatenate([getattr(group, name)[index] for group, index in zip(groups, chosen, strict=True)])
-        for name in ("rows", "cols", "rgb", "photo_xy", "confidence")
+        for name in ("rows", "cols", "rgb", "photo_xy", "confidence", "locked")
     }
     lists = {
         name: tuple(getattr(group, name)[k] for group, index in zip(groups, chosen, strict=True) for k in index)
@@ -329,6 +339,25 @@ def _placed(seeds, scans):
     seeds = list(seeds) if seeds is not None else [None] * len(scans)
     return [
         None if own is None or len(own) == 0 else own.placed_on(scan)[0] for own, scan in zip(seeds, scans, strict=True)
+    ]
+
+
+def shots_of(photos, matching):
+    """Return a `Shot` of every photo that was recognized, None for the others: what `texture` takes.
+
+    Parameters
+    ----------
+    photos : sequence
+        As `match_photos` was given them.
+    matching : Matching or None
+        None where nothing was sought in them.
+    """
+    if matching is None or not any(found.verified for found in matching.photos):
+        return []
+    opened = opened_photos(photos)
+    return [
+        Shot(photo, found.model) if found.verified else None
+        for photo, found in zip(opened, matching.photos, strict=True)
     ]
 
 

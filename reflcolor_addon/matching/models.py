@@ -49,6 +49,10 @@ class Camera:
         """(h, w, 3): what `project` takes for the pixels of a `ScanImage`."""
         return scan_image.surface
 
+    def sites_of(self, scan, rows, cols):
+        """(..., 3): the same for pixels of a `Scan`."""
+        return scan.points[rows, cols]
+
     def turns(self, scan_image):
         """(2, h, w, 3): what the next pixel to the right, and down, adds to a site."""
         return scan_image.turns
@@ -125,6 +129,11 @@ class GridHomography:
     def sites(self, scan_image):
         """(h, w, 2): what `project` takes for the pixels of a `ScanImage`."""
         return scan_image.grid_xy
+
+    def sites_of(self, scan, rows, cols):
+        """(..., 2): the same for pixels of a `Scan`."""
+        y, x = np.broadcast_arrays(np.asarray(rows) + 0.5, np.asarray(cols) + 0.5)
+        return np.stack([x, y], axis=-1)
 
     def turns(self, scan_image):
         """(2, h, w, 2): what the next pixel to the right, and down, adds to a site."""

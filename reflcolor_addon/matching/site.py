@@ -7,15 +7,22 @@ import numpy as np
 from ..messages import Message
 from ..seeds.seeds import Seeds
 from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
+from .registration.alignment import aligned
 from .registration.location import located
 from .registration.registration import ScanViews
 from .scan_image import toned
 from .transfer.appearance import LEAST_CONFIDENCE, Appearance, described
 from .transfer.fallback import cautious_colors, mean_color
-from .transfer.several_photos import blended, gains
+from .transfer.fusion import fused
+from .transfer.seen_seeds import seen_seeds
+from .transfer.several_photos import gains
+from .transfer.sharing import shared
+from .transfer.surface import GridSurface
 from .transfer.views import seen_by
 
 _STEPS_PER_PHOTO = 40
+# A photo that shows fewer pixels of a scan than this shows nothing of it.
+_LEAST_SEEN = 100
 
 
 @dataclass(eq=False)
@@ -26,13 +33,13 @@ class _OnScan:
     views: ScanViews
     image: object
     superpixels: object
+    surface: GridSurface
     locations: list
     warnings: list
-    shown: list
 
 
 def verified(scans, photos, hand, settings, step, registered=None):
-    """Yield seeds, the `Location` of each photo, and warnings for every scan.
+    """Yield seeds, the `Location` of each photo, `Observed` colors or None, and warnings for every scan.
 
     Parameters
     ----------
@@ -55,24 +62,39 @@ def verified(scans, photos, hand, settings, step, registered=None):
         for place, location in zip(places, found, strict=True):
             place.locations.append(location)
             place.warnings += location.warnings
-    for place in places:
-        step(0.87, f"{place.scan.name}: transferring colors")
-        for index, photo in enumerate(photos):
-            place.shown.append(_shown(place, photo, index))
-    photo_gains = gains([place.shown for place in places])
-    seen = [_seen_seeds(place, photos, photo_gains) for place in places]
+    observed = _observed(places, photos, step)
+    seen = [
+        None if own is None else seen_seeds(place.scan, own, place.image, place.superpixels, place.locations, photos)
+        for place, own in zip(places, observed, strict=True)
+    ]
     step(0.93, "Learning the materials")
     looks = [described(place.image, place.superpixels.labels, len(place.superpixels)) for place in places]
     appearance = _learnt(places, seen, looks)
-    for place, own, look in zip(places, seen, looks, strict=True):
-        yield _with_unseen(place, own, look, appearance, photos, settings, step), place.locations, place.warnings
+    for place, own, colors, look in zip(places, seen, observed, looks, strict=True):
+        seeds = _with_unseen(place, own, look, appearance, photos, settings, step)
+        yield seeds, place.locations, colors, place.warnings
+
+
+def _observed(places, photos, step):
+    """The `Observed` of each scan, or None."""
+    views = []
+    for place in places:
+        step(0.87, f"{place.scan.name}: transferring colors")
+        views.append([_shown(place, photo, index) for index, photo in enumerate(photos)])
+    photo_gains = gains(views)
+    observed = []
+    for place in places:
+        step(0.9, f"{place.scan.name}: blending photos")
+        # What a scan's photos show takes much memory, and is not needed any more.
+        observed.append(fused(views.pop(0), photo_gains, place.surface))
+    return shared([place.surface for place in places], observed)
 
 
 def _prepared(scan, settings, step):
     step(0.02, f"{scan.name}: superpixels")
     views = ScanViews(scan)
     image = square_image(scan, toned(scan, "percentiles"))
-    return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), [], [], [])
+    return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), GridSurface(scan), [], [])
 
 
 def _shown(place, photo, index):
@@ -80,8 +102,11 @@ def _shown(place, photo, index):
     location = place.locations[index]
     if not location.verified:
         return None
-    view = seen_by(photo, location.registration.model, place.image)
-    if view.usable.any():
+    model = aligned(place.scan, photo, location.registration.model)
+    location = replace(location, registration=replace(location.registration, model=model))
+    place.locations[index] = location
+    view = seen_by(photo, model, place.surface)
+    if np.count_nonzero(view.usable) >= _LEAST_SEEN:
         return view
     note = Message("{note}; so placed, it shows nothing of the scan", note=location.note)
     place.locations[index] = replace(location, verified=False, reason=None, note=note)
@@ -103,63 +128,6 @@ def _counted(step, begin, share, scans):
         step(begin + share * min(count / expected, 1.0), text)
 
     return counted
-
-
-@dataclass(frozen=True, eq=False)
-class _Seen:
-    """Seeds where a photo saw the scan, and the superpixel of each."""
-
-    seeds: Seeds
-    segments: np.ndarray
-
-
-def _seen_seeds(place, photos, photo_gains):
-    """One seed in each superpixel that a photo saw: well inside of it and of what was seen."""
-    import cv2
-
-    if all(view is None for view in place.shown):
-        return None
-    rgb, source, quality = blended(place.shown, photo_gains)
-    labels = place.superpixels.labels
-    usable = (source >= 0) & (labels >= 0)
-    if not usable.any():
-        return None
-    # A border between superpixels is as bad a place as the border of what was seen.
-    inner = usable.copy()
-    inner[:, 1:] &= labels[:, 1:] == labels[:, :-1]
-    inner[1:] &= labels[1:] == labels[:-1]
-    depth = cv2.distanceTransform(inner.astype(np.uint8), cv2.DIST_L2, 3)
-    # From the front anywhere in a superpixel before from behind in its middle.
-    behind = np.zeros(usable.shape, bool)
-    for index, view in enumerate(place.shown):
-        if view is not None:
-            behind |= (source == index) & view.behind
-    depth[behind] /= 1000
-    rows, cols = np.nonzero(usable)
-    label = labels[rows, cols]
-    order = np.lexsort((-depth[rows, cols], label))
-    segments, first = np.unique(label[order], return_index=True)
-    rows, cols = rows[order[first]], cols[order[first]]
-    photo = source[rows, cols]
-    best = max(float(quality.max()), 1e-6)
-    trust = np.array([_trust(location.registration) for location in place.locations])[photo]
-    seeds = Seeds(
-        rows=place.image.rows[rows],
-        cols=place.image.cols[cols],
-        rgb=rgb[rows, cols],
-        photos=tuple(photos[index].name for index in photo),
-        photo_xy=np.array([place.shown[p].xy[r, c] for p, r, c in zip(photo, rows, cols, strict=True)]),
-        confidence=trust * np.where(behind[rows, cols], 0.3, 0.6 + 0.4 * quality[rows, cols] / best),
-        reason=tuple("homography" if place.locations[p].reason == "homography" else "pose" for p in photo),
-    )
-    return _Seen(seeds, segments)
-
-
-def _trust(registration):
-    """How sure a registration is: 0.75 if just accepted or resting on pairs alone, 1 if beyond doubt."""
-    if registration.model is None or not registration.accepted:
-        return 0.75
-    return float(np.clip(0.75 + 0.25 * (registration.evidence.rank - 1) / 4, 0.75, 1.0))
 
 
 def _learnt(places, seen, looks):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..errors import ReflcolorError
 from ..files.json_files import read_json
-from ..seeds.sources import EVIDENCE, GUESSED, HAND, IN_PHOTO
+from ..seeds.sources import EVIDENCE, FOUND, GUESSED, HAND, IN_PHOTO
 from .report import FORMAT, VERSION
 
 _LARGEST_FILE = 1 << 28
@@ -24,6 +24,8 @@ class Provenance:
         ``sha256`` is None where the file was not seen.
     sources : dict
         Seeds by source, in the order of ``EVIDENCE``, those that occur. They are the evidence.
+    observed : tuple of (str, int)
+        Photos, and how many pixels have the color that each shows there. They are evidence, too.
     inferred : int
         Pixels whose color was spread from the seeds.
     unreached : int
@@ -37,6 +39,7 @@ class Provenance:
     created: str
     inputs: tuple[tuple[str, str, str | None], ...]
     sources: dict[str, int]
+    observed: tuple[tuple[str, int], ...]
     inferred: int
     unreached: int
     guessed: bool
@@ -91,13 +94,18 @@ def outline(report):
     """
     try:
         found = Counter(_source(seed) for seed in report["seeds"])
-        # A seed is a pixel that was not inferred; several may lie on the same one.
-        evidence = len({(seed["row"], seed["col"]) for seed in report["seeds"]})
+        # Reports of earlier versions have nothing observed.
+        observed = [(photo["name"], photo.get("observed", 0)) for photo in report["photos"]]
+        seen = sum(count for _, count in observed)
+        # A seed is a pixel that was not inferred; several may lie on the same one. Those found in photos are among what
+        # the photos saw.
+        evidence = {(seed["row"], seed["col"]) for seed in report["seeds"] if not seen or seed["reason"] not in FOUND}
         return Provenance(
             created=str(report.get("created", "")),
             inputs=tuple((entry["role"], entry["path"], entry["sha256"]) for entry in report["inputs"]),
             sources={source: found[source] for source in EVIDENCE if found[source]},
-            inferred=report["result"]["colored"] - evidence,
+            observed=tuple(entry for entry in observed if entry[1]),
+            inferred=report["result"]["colored"] - seen - len(evidence),
             unreached=report["result"]["unreached"],
             guessed=bool(found) and GUESSED.issuperset(found),
             versions={name: report["versions"][name] for name in ("reflcolor", "blender") if report["versions"][name]},

@@ -39,7 +39,8 @@ def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(
     outputs : sequence of (str, Path)
         The option that asked for it, and the file.
     photos : sequence of dict
-        From `photo_entry`: what became of each photo that seeds were looked for in.
+        From `photo_entry`: what became of each photo that seeds were looked for in. The attribute ``photo`` of a mesh
+        counts them from 0; ``observed`` tells how many pixels have their color from each.
     noticed : sequence of str
         Warnings from before the colorization.
     blender : str, optional
@@ -50,14 +51,14 @@ def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(
     dict
         Ready for JSON, with no number that is not finite.
     """
-    colored = int((colorization.nearest_seed >= 0).sum())
+    colored = int(((colorization.nearest_seed >= 0) | (colorization.observed > 0)).sum())
     return {
         "format": FORMAT,
         "version": VERSION,
         "scan": scan,
         "settings": settings.as_dict(),
         "seeds": seed_entries(colorization.seeds, given_seeds),
-        "photos": list(photos),
+        "photos": [entry | {"observed": _led(colorization, number)} for number, entry in enumerate(photos)],
         "normalization": {
             "percentiles": list(PERCENTILES),
             "reflectance": list(colorization.normalization["reflectance"]),
@@ -66,6 +67,7 @@ def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(
         "result": {
             "colored": colored,
             "unreached": scan["returns"] - colored,
+            "observed": int((colorization.photo >= 0).sum()),
             "guessed": colorization.seeds.all_guessed,
             "mean_confidence": round(float(colorization.confidence.sum()) / max(scan["returns"], 1), 4),
         },
@@ -75,6 +77,10 @@ def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(
         "outputs": [{"option": option, "path": str(path)} for option, path in outputs],
         "versions": versions(blender),
     }
+
+
+def _led(colorization, number):
+    return int((colorization.photo == number).sum())
 
 
 def stamped(report):

@@ -17,14 +17,14 @@ from ..files.gate import beside
 from ..files.images import read_image
 from ..files.json_files import read_json
 from ..messages import Message
-from .sources import GUESSED, SOURCES
+from .sources import FOUND, GUESSED, SOURCES
 
 FORMAT = "reflcolor-seeds"
 VERSION = 1
 # From so many seeds on pixels without a return on it is asked whether they belong to the scan.
 _MANY_MOVED = 5
 _LARGEST_FILE = 1 << 28
-_KEYS = ("row", "col", "rgb", "photo", "x", "y", "confidence", "reason")
+_KEYS = ("row", "col", "rgb", "photo", "x", "y", "confidence", "reason", "locked")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +46,8 @@ class Seeds:
         How sure a color is, 0..1; NaN where nobody says.
     reason : (S,) sequence of {"pose", "homography", "appearance", "hand"} or None, optional
         Why the seed has its color: by the photo's verified camera or homography, by likeness, picked by hand.
+    locked : (S,) bool, optional
+        Which ones a person wants to stay as they are: no photo tells more than they do. By default none.
 
     Raises
     ------
@@ -69,6 +71,7 @@ class Seeds:
     photo_xy: np.ndarray = None  # type: ignore[assignment]
     confidence: np.ndarray = None  # type: ignore[assignment]
     reason: tuple[str | None, ...] = None  # type: ignore[assignment]
+    locked: np.ndarray = None  # type: ignore[assignment]
 
     def __post_init__(self):
         count = np.size(self.rows)
@@ -84,6 +87,7 @@ class Seeds:
             else _whole_numbers("rgb", self.rgb, np.uint8),
             "photo_xy": np.asarray(photo_xy, np.float64).reshape(-1, 2),
             "confidence": np.asarray(confidence, np.float64),
+            "locked": np.zeros(count, bool) if self.locked is None else np.asarray(self.locked, bool),
         }
         for name, array in arrays.items():
             expected = (count, *{"rgb": (3,), "photo_xy": (2,)}.get(name, ()))
@@ -108,6 +112,11 @@ class Seeds:
         """True where no color was picked by a person or seen by a photo that was verified."""
         return len(self) > 0 and GUESSED.issuperset(self.reason)
 
+    @property
+    def of_a_person(self) -> np.ndarray:
+        """(S,) bool: those that a person picked or locked; no photo tells more than they do."""
+        return self.locked | np.array([reason not in FOUND for reason in self.reason], bool)
+
     def chosen(self, indices) -> "Seeds":
         """Return the seeds of these indices, in their order."""
         indices = np.asarray(indices, np.int64)
@@ -119,6 +128,7 @@ class Seeds:
             photo_xy=self.photo_xy[indices],
             confidence=self.confidence[indices],
             reason=tuple(self.reason[index] for index in indices),
+            locked=self.locked[indices],
         )
 
     @classmethod
@@ -153,8 +163,8 @@ class Seeds:
             If the file cannot be written.
         """
         entries = []
-        columns = (self.rows, self.cols, self.rgb, self.photo_xy, self.confidence)
-        for row, col, rgb, (x, y), confidence, photo, reason in zip(
+        columns = (self.rows, self.cols, self.rgb, self.photo_xy, self.confidence, self.locked)
+        for row, col, rgb, (x, y), confidence, locked, photo, reason in zip(
             *(column.tolist() for column in columns), self.photos, self.reason, strict=True
         ):
             entry = {"row": row, "col": col, "rgb": rgb}
@@ -164,6 +174,8 @@ class Seeds:
                 entry["confidence"] = round(confidence, 3)
             if reason is not None:
                 entry["reason"] = reason
+            if locked:
+                entry["locked"] = True
             entries.append(entry)
         lines = ",\n".join(f"  {json.dumps(entry, ensure_ascii=False)}" for entry in entries)
         text = f'{{"format": "{FORMAT}", "version": {VERSION}, "seeds": [\n{lines}\n]}}\n'
@@ -318,8 +330,9 @@ class _SeedsFile:
     def seeds(self):
         document = self._document()
         entries = [self._entry(place, entry) for place, entry in enumerate(document["seeds"], 1)]
-        rows, cols, rgb, photos, xy, confidence, reason = zip(*entries, strict=True) if entries else ((),) * 7
-        return Seeds(rows, cols, rgb, photos, np.array(xy, np.float64).reshape(-1, 2), np.array(confidence), reason)
+        rows, cols, rgb, photos, xy, confidence, reason, locked = zip(*entries, strict=True) if entries else ((),) * 8
+        xy, confidence = np.array(xy, np.float64).reshape(-1, 2), np.array(confidence)
+        return Seeds(rows, cols, rgb, photos, xy, confidence, reason, np.array(locked, bool))
 
     def _document(self):
         document = read_json(self._path, "a JSON file of seeds", error=SeedsError, most=_LARGEST_FILE)
@@ -363,7 +376,10 @@ class _SeedsFile:
         reason = entry.get("reason")
         if reason is not None and reason not in SOURCES:
             raise SeedsError(f"{where}: reason: expected one of {', '.join(SOURCES)}, found {reprlib.repr(reason)}")
-        return row, col, rgb, photo, xy, confidence, reason
+        locked = entry.get("locked", False)
+        if not isinstance(locked, bool):
+            raise SeedsError(f"{where}: locked: expected true or false, found {reprlib.repr(locked)}")
+        return row, col, rgb, photo, xy, confidence, reason, locked
 
     def _number(self, where, entry, key, kind):
         value = entry.get(key)

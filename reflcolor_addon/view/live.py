@@ -1,7 +1,7 @@
 """Colors while seeds are being picked: a coarse result at once, then the full one; only the latest wish counts."""
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from ..color.tone import toned
 from ..errors import Cancelled
 from ..scan.normalization import normalize
 from ..scan.scan import Scan
-from ..seeds.seeds import Seeds
 
 # The coarse result has about this many pixels; a scan that has few more is colorized at once.
 COARSE_PIXELS = 60_000
@@ -46,8 +45,8 @@ class LiveResult:
 class LiveColorizer:
     """Colorizes a scan again and again in a thread of its own.
 
-    ``wish(seeds, settings)`` returns at once and makes void whatever was wished before; ``take()`` returns what is
-    there by now. The thread ends with ``stop()``.
+    ``wish(seeds, settings, observed)`` returns at once and makes void whatever was wished before; ``take()`` returns
+    what is there by now. The thread ends with ``stop()``.
 
     Parameters
     ----------
@@ -69,11 +68,11 @@ class LiveColorizer:
         self._thread = threading.Thread(target=self._run, name="reflcolor live", daemon=True)
         self._thread.start()
 
-    def wish(self, seeds, settings):
-        """Ask for the colors that these Seeds give with these Settings; return the number of the wish."""
+    def wish(self, seeds, settings, observed=None):
+        """Ask for the colors of Seeds and of what photos saw (`Observed`) with Settings; return the wish's number."""
         with self._condition:
             self._number += 1
-            self._wish = self._number, seeds, settings
+            self._wish = self._number, seeds, settings, observed
             self._condition.notify()
             return self._number
 
@@ -103,23 +102,23 @@ class LiveColorizer:
                 self._condition.wait_for(lambda: self._stopped or self._wish is not None)
                 if self._stopped:
                     return
-                (number, seeds, settings), self._wish = self._wish, None
+                (number, *wanted), self._wish = self._wish, None
             try:
                 if scan is None:
                     scan = _LiveScan(self._read_scan())
-                self._colorize(scan, number, seeds, settings)
+                self._colorize(scan, number, *wanted)
             except Cancelled:
                 continue
             except Exception as error:  # bad input, or a defect: the window tells it apart
                 self._deliver(LiveResult(number, error=error))
 
-    def _colorize(self, scan, number, seeds, settings):
+    def _colorize(self, scan, number, seeds, settings, observed):
         # A coarse result is quick and always finished: while a seed is dragged there is a new wish all the time.
-        rgb = scan.coarse(seeds, settings, lambda: self._stopped)
+        rgb = scan.coarse(seeds, settings, observed, lambda: self._stopped)
         if rgb is not None:
             self._deliver(LiveResult(number, rgb, self._prepare(rgb)))
         if len(seeds):
-            found = scan.full(seeds, settings, lambda: self._stopped or self._wish is not None)
+            found = scan.full(seeds, settings, observed, lambda: self._stopped or self._wish is not None)
             self._deliver(LiveResult(number, found.rgb, self._prepare(found.rgb), found))
 
     def _deliver(self, result):
@@ -139,13 +138,13 @@ class _LiveScan:
         self._stride = int(np.ceil(np.sqrt(scan.valid.size / COARSE_PIXELS)))
         self._fine = self._coarse = None
 
-    def full(self, seeds, settings, cancelled):
+    def full(self, seeds, settings, observed, cancelled):
         """Return the Colorization of all pixels."""
         if self._fine is None:
             self._fine = Colorizer(self._scan, settings)
-        return self._fine.colorize(seeds, settings, cancelled=cancelled)
+        return self._fine.colorize(seeds, settings, observed, cancelled=cancelled)
 
-    def coarse(self, seeds, settings, cancelled):
+    def coarse(self, seeds, settings, observed, cancelled):
         """Return colors of all pixels by the chrominance of a few; None where that is no gain. Gray without seeds."""
         if len(seeds) == 0:
             return np.repeat(np.rint(toned(self._luminance, settings.tone)).astype(np.uint8)[..., None], 3, axis=-1)
@@ -154,15 +153,20 @@ class _LiveScan:
         if self._coarse is None:
             self._coarse = Colorizer(self._fewer_pixels(), settings)
         rows, cols = seeds.rows // self._stride, seeds.cols // self._stride
-        fewer, _ = Seeds(rows, cols, seeds.rgb).placed_on(self._coarse.scan)
+        fewer, _ = replace(seeds, rows=rows, cols=cols).placed_on(self._coarse.scan)
         spread, _ = self._coarse.spread(fewer, settings, cancelled=cancelled)
+        colored = self._coarse.joined(spread, fewer, None if observed is None else observed.thinned(self._stride))
         # Enlarged together with where they are, so that what is next to no value takes nothing of it.
-        reached = spread.reached[..., None].astype(np.float32)
-        values, share = (self._enlarged(each) for each in (spread.values * reached, reached))
+        reached = colored.reached[..., None].astype(np.float32)
+        values, share = (self._enlarged(each) for each in (colored.values * reached, reached))
         values /= np.maximum(share, np.finfo(np.float32).tiny)[..., None]
         gray = lightness(self._luminance, values, share > 0, settings)
         rgb = colorspaces.merge(gray, values[..., CHROMINANCE], settings.color_space)
         rgb[~self._scan.valid] = 0
+        if settings.light == 1 and colored.weight.any():
+            # What photos saw is there at the full size already.
+            weight = self._enlarged(colored.weight)[..., None] * observed.seen[..., None]
+            rgb = np.rint(rgb + weight * (observed.rgb.astype(np.float32) - rgb)).astype(np.uint8)
         return rgb
 
     def _enlarged(self, image):

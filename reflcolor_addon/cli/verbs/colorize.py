@@ -1,10 +1,12 @@
 """The verb ``colorize``: from scans and seeds, or photos, to colored files."""
 
+import argparse
 from pathlib import Path
 
 from ...batch.pipeline import run_plan
 from ...batch.plan import IMAGE, MESH, RENDER, REPORT, RESULT_SUFFIXES, SCANS, SCENE, Output, Plan, result_output
 from ...errors import UsageError
+from ...matching import LARGEST
 from ...view.picture import Picture
 from ..options import add_matching, add_photos, add_picture, add_propagation, add_scans, reading_of, settings_of
 
@@ -38,8 +40,21 @@ def add_arguments(parser):
         help=f"file to write, once for each: {images} (colorized reflectance image), {meshes} (colored mesh), "
         f"{scans} (the scans with colors, a copy of a file of that kind), or in Blender {scenes}",
     )
+    parser.add_argument(
+        "--texture",
+        metavar="PIXELS",
+        type=_texels,
+        help="an image of so many pixels along its longer side with the detail of the photos: "
+        "a .png has that size, a .glb and a .blend show it instead of colors at the vertices",
+    )
     add_picture(parser)
     parser.add_argument("--report", metavar="JSON", type=Path, help="what was done, and a hash of every input")
+
+
+def _texels(text):
+    if not text.isdecimal() or not 1 <= int(text) <= LARGEST:
+        raise argparse.ArgumentTypeError(f"expected a whole number from 1 to {LARGEST}, found {text}")
+    return int(text)
 
 
 def run(arguments, session):
@@ -64,6 +79,7 @@ def run(arguments, session):
         photos=tuple(arguments.photo),
         settings=settings_of(arguments),
         outputs=tuple(outputs),
+        texture=arguments.texture,
         picture=Picture(look=arguments.look, filled=not arguments.as_measured, drop_mixed=not arguments.keep_mixed),
     )
     run_plan(plan, session)

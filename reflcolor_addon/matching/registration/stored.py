@@ -12,15 +12,8 @@ from .verification import Evidence
 
 def as_document(registration):
     """Return a `Registration` as what JSON can hold."""
-    model = registration.model
-    described = None
-    if model is not None:
-        values = {field.name: getattr(model, field.name) for field in fields(model)}
-        described = {"kind": model.kind} | {
-            name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()
-        }
     return {
-        "model": described,
+        "model": None if registration.model is None else model_document(registration.model),
         "evidence": asdict(registration.evidence),
         "found_by": registration.found_by,
         "untestable": registration.untestable,
@@ -36,11 +29,7 @@ def from_document(document):
         If the document is none that `as_document` made.
     """
     try:
-        model = document["model"]
-        if model is not None:
-            kind, values = model["kind"], {name: value for name, value in model.items() if name != "kind"}
-            of_kind = {Camera.kind: Camera, GridHomography.kind: GridHomography}[kind]
-            model = of_kind(**{name: _value(value) for name, value in values.items()})
+        model = None if document["model"] is None else model_of(document["model"])
         evidence = Evidence(**document["evidence"])
         numbers = [value for value in asdict(evidence).values() if isinstance(value, float)]
         if not all(map(math.isfinite, numbers)):
@@ -48,6 +37,21 @@ def from_document(document):
         return Registration(model, evidence, document["found_by"], document["untestable"])
     except (KeyError, TypeError) as error:
         raise ValueError(f"no registration: {error}") from error
+
+
+def model_document(model):
+    """Return a Camera or GridHomography as what JSON can hold."""
+    values = {field.name: getattr(model, field.name) for field in fields(model)}
+    return {"kind": model.kind} | {
+        name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()
+    }
+
+
+def model_of(document):
+    """Return the model that `model_document` described; raises KeyError, TypeError or ValueError where it is none."""
+    values = {name: value for name, value in document.items() if name != "kind"}
+    of_kind = {Camera.kind: Camera, GridHomography.kind: GridHomography}[document["kind"]]
+    return of_kind(**{name: _value(value) for name, value in values.items()})
 
 
 def _value(value):

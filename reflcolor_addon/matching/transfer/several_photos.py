@@ -1,16 +1,17 @@
-"""Several photos of one site: exposures and white balances reconciled where they overlap, and their colors blended."""
+"""Several photos of one site: exposures and white balances reconciled where they overlap."""
 
 import numpy as np
 
-from ...srgb import linear_to_srgb8, srgb8_to_linear
+from ...srgb import srgb8_to_linear
 
 _LEAST_OVERLAP = 40
 _TRUSTED = (12, 245)
 # Light that differs by this much (median deviation of the logarithm) from pixel to pixel is not one photo's gain.
 _LARGEST_SPREAD = 0.5
 _KEEP = 0.05
-_FAVORING_THE_BEST = 4.0
 _LARGEST_GAIN = np.log(8.0)
+# Pixels of a pair of photos that are compared, on each scan.
+_MOST_COMPARED = 1 << 18
 
 
 def gains(views):
@@ -48,50 +49,19 @@ def gains(views):
     return np.exp(np.clip(logarithm, -_LARGEST_GAIN, _LARGEST_GAIN))
 
 
-def blended(views, photo_gains):
-    """Blend the photos of one scan.
-
-    Parameters
-    ----------
-    views : sequence of View or None
-    photo_gains : (P, 3) float64
-        See `gains`.
-
-    Returns
-    -------
-    rgb : (h, w, 3) uint8
-    source : (h, w) int
-        The photo that contributes most; -1 where none shows the pixel.
-    quality : (h, w) float32
-        Of that photo.
-    """
-    shape = next(view.usable.shape for view in views if view is not None)
-    total, weight = np.zeros((*shape, 3)), np.zeros(shape)
-    best, source = np.zeros(shape, np.float32), np.full(shape, -1)
-    for index, view in enumerate(views):
-        if view is None:
-            continue
-        # The fourth power of a tenth: a view from behind counts for nothing beside one from the front.
-        own = np.where(view.usable, view.quality.astype(np.float64) ** _FAVORING_THE_BEST + 1e-12, 0)
-        total += own[..., None] * (srgb8_to_linear(np.rint(view.rgb).astype(np.uint8)) * photo_gains[index])
-        weight += own
-        better = view.usable & (view.quality >= best)
-        source[better] = index
-        best[better] = view.quality[better]
-    light = total / np.maximum(weight, 1e-300)[..., None]
-    return linear_to_srgb8(np.clip(light, 0, 1)), source, best
-
-
 def _ratio(first, second):
     """(3,) median logarithm of first over second in linear light, over what both show, and how many pixels that is."""
     ratios = []
     for one, other in zip(first, second, strict=True):
         if one is None or other is None:
             continue
-        both = one.usable & other.usable & ~one.behind & ~other.behind
-        for view in (one, other):
-            both &= (view.rgb.min(axis=-1) >= _TRUSTED[0]) & (view.rgb.max(axis=-1) <= _TRUSTED[1])
-        light = [srgb8_to_linear(np.rint(view.rgb[both]).astype(np.uint8)) for view in (one, other)]
+        both = np.flatnonzero(one.sure & other.sure & ~one.behind & ~other.behind)
+        both = both[:: -(-len(both) // _MOST_COMPARED) or 1]
+        colors = [view.rgb.reshape(-1, 3)[both] for view in (one, other)]
+        trusted = np.logical_and.reduce(
+            [(own.min(axis=1) >= _TRUSTED[0]) & (own.max(axis=1) <= _TRUSTED[1]) for own in colors]
+        )
+        light = [srgb8_to_linear(own[trusted]) for own in colors]
         ratios.append(np.log(light[0]) - np.log(light[1]))
     ratios = np.concatenate(ratios) if ratios else np.zeros((0, 3))
     if len(ratios) < _LEAST_OVERLAP:

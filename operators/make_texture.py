@@ -1,0 +1,72 @@
+"""Lay an image with the detail of the photos over a colorized scan."""
+
+import bpy
+import numpy as np
+from bpy.props import IntProperty
+
+from ..reflcolor_addon.matching import LARGEST, Shot, texture
+from ..reflcolor_addon.matching.photo_image import PhotoImage
+from .scene import polls
+from .scene.images import read_pixels
+from .scene.photo_colors import cameras_of
+from .scene.photo_texture import show_texture
+from .scene.scan_object import COLORIZED, OBSERVED, PHOTO, colors_of, grid_indices, scan_reader, values_of
+from .scene.texts import told
+from .window.jobs import JobOperator
+
+
+class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
+    """Make an image with the detail of the photos, and show it on the scan instead of the colors of its vertices"""
+
+    bl_idname = "reflcolor.make_texture"
+    bl_label = "Make Texture"
+    bl_options = {"REGISTER", "UNDO"}
+    job_name = "Make Texture"
+
+    pixels: IntProperty(
+        name="Pixels",
+        description="Pixels along the longer side of the image",
+        default=4096,
+        min=64,
+        max=LARGEST,
+        subtype="PIXEL",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return polls.has_editable_scan(cls, context) and polls.has_colors(cls, context)
+
+    def prepare(self, context):
+        obj = polls.scan_object(context)
+        self._object_name = obj.name
+        place, shape = grid_indices(obj), (obj.reflcolor.rows, obj.reflcolor.cols)
+        rgb, observed, photo = np.zeros((*shape, 3), np.uint8), np.zeros(shape, np.float32), np.full(shape, -1)
+        rgb[place] = colors_of(obj, COLORIZED)
+        if OBSERVED in obj.data.attributes and PHOTO in obj.data.attributes:
+            observed[place], photo[place] = values_of(obj, OBSERVED, np.float32), values_of(obj, PHOTO, np.int32)
+        read_scan, shots, pixels = scan_reader(obj), [_shot(camera) for camera in cameras_of(obj)], self.pixels
+
+        def work(progress, cancelled):
+            return texture(read_scan(), rgb, observed, photo, shots, pixels, progress=progress, cancelled=cancelled)
+
+        return work
+
+    def finish(self, context, pixels):
+        obj = bpy.data.objects.get(self._object_name)
+        if obj is None:
+            self.report({"WARNING"}, told("{name} is gone; its colors were dropped", name=self._object_name))
+            return
+        show_texture(obj, pixels)
+        rows, columns = pixels.shape[:2]
+        said = told("{name} has a texture of {columns} x {rows} pixels", name=obj.name, columns=columns, rows=rows)
+        self.report({"INFO"}, said)
+
+
+def _shot(camera):
+    """The Shot of a photo that is still there, else None."""
+    image = None if camera is None else bpy.data.images.get(camera[0])
+    pixels = None if image is None else read_pixels(image)
+    return None if pixels is None else Shot(PhotoImage(camera[0], pixels), camera[1])
+
+
+classes = (REFLCOLOR_OT_make_texture,)

@@ -1,0 +1,99 @@
+"""What verified photos saw of a scan, kept with its object between the search in photos and the colorization.
+
+It lies at the vertices, where undo, copies and files take care of it. The names begin with a dot, so that Blender shows
+them to nobody and no export takes them.
+"""
+
+import hashlib
+import json
+
+import numpy as np
+
+from ...reflcolor_addon.color.observed import Observed
+from ...reflcolor_addon.errors import ScanError
+from ...reflcolor_addon.matching.registration.stored import model_document, model_of
+from .scan_object import add_values, grid_indices, values_of
+
+_RGB, _WEIGHT, _PHOTO = ".seen_rgb", ".seen_weight", ".seen_photo"
+# On objects: tells one state of these from another.
+_KEY = "reflcolor_seen"
+# On objects: how the scan falls into each photo, as JSON.
+_CAMERAS = "reflcolor_cameras"
+_BASES = np.array([1 << 16, 1 << 8, 1], np.int32)
+
+
+def keep_observed(obj, observed):
+    """Keep the `Observed` colors of an object's scan in place of those that are kept; None keeps none.
+
+    Raises
+    ------
+    ScanError
+        If the mesh has lost the attributes that tie its vertices to the scan's grid.
+    """
+    if observed is None:
+        for name in (_RGB, _WEIGHT, _PHOTO):
+            if name in obj.data.attributes:
+                obj.data.attributes.remove(obj.data.attributes[name])
+        for name in (_KEY, _CAMERAS):
+            if name in obj:
+                del obj[name]
+        return
+    place = grid_indices(obj)
+    values = {
+        _RGB: observed.rgb[place].astype(np.int32) @ _BASES,
+        _WEIGHT: observed.weight[place],
+        _PHOTO: observed.photo[place],
+    }
+    digest = hashlib.sha256()
+    for name, each in values.items():
+        add_values(obj, name, each)
+        digest.update(np.ascontiguousarray(each).tobytes())
+    obj[_KEY] = digest.hexdigest()
+
+
+def observed_key(obj):
+    """Return a text that is the same as long as what `keep_observed` kept is."""
+    return obj.get(_KEY, "")
+
+
+def observed_reader(obj):
+    """Return a function that makes the `Observed` colors that are kept, or None; a thread may call it: it needs no bpy.
+
+    Raises
+    ------
+    ScanError
+        If the mesh has lost the attributes that tie its vertices to the scan's grid.
+    """
+    place, shape = grid_indices(obj), (obj.reflcolor.rows, obj.reflcolor.cols)
+    try:
+        packed, weights, photos = (
+            values_of(obj, name, dtype) for name, dtype in ((_RGB, np.int32), (_WEIGHT, np.float32), (_PHOTO, np.int32))
+        )
+    except ScanError:
+        return lambda: None
+
+    def read():
+        rgb = np.zeros((*shape, 3), np.uint8)
+        weight, photo = np.zeros(shape, np.float32), np.full(shape, -1, np.int16)
+        rgb[place] = packed[:, None] // _BASES & 255
+        weight[place], photo[place] = weights, photos
+        return Observed(rgb, weight, photo)
+
+    return read
+
+
+def keep_cameras(obj, matches):
+    """Keep how an object's scan falls into each photo that was recognized; ``matches`` are `PhotoMatch`."""
+    found = [
+        {"name": match.name, "model": model_document(match.model)} if match.verified else None for match in matches
+    ]
+    obj[_CAMERAS] = json.dumps(found)
+
+
+def cameras_of(obj):
+    """Return (name, model) of each photo, None for one that was not recognized; an empty list where none is kept."""
+    try:
+        kept = json.loads(obj.get(_CAMERAS, "[]"))
+        return [None if each is None else (each["name"], model_of(each["model"])) for each in kept]
+    except (ValueError, TypeError, KeyError, AttributeError):
+        return []

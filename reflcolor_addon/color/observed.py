@@ -1,0 +1,206 @@
+"""Colors that photos saw, at every pixel of a scan, joined with what is inferred from seeds elsewhere.
+
+Where a photo ends, its colors and the inferred ones differ by what no seed told. That difference is carried on, along
+paths, from the border of what was seen: beside the border the inferred colors are the photo's, and farther away they
+are the seeds' again. So all pixels at the border have a say, not one in a superpixel, and no edge shows there.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..geodesic.spreading import spread as geodesic_spread
+from .luminance import seed_values
+
+# What the way costs a pixel, in levels of the reflectance; where the difference has fallen to a half; how many pixels
+# of the border are taken together, by which power of their distances; and over how many pixels each is averaged.
+_STEP, _HALF_WAY = 1.0, 150.0
+_NEAREST, _ALPHA, _AVERAGED = 8, 2.0, 5
+# From which weight on an observed color is held for the surface's own.
+_SURE = 0.9
+# Pixels over which what was seen fades into what is inferred from it.
+_FADES = 3
+# A picked color is held against about so many places of the photos.
+_PLACES = 500
+_STRIP_PIXELS = 1 << 18
+
+
+@dataclass(frozen=True, eq=False)
+class Observed:
+    """What photos with verified cameras show of a scan.
+
+    Parameters
+    ----------
+    rgb : (H, W, 3) uint8
+        sRGB, of one exposure and white balance for all photos; black where nothing was seen.
+    weight : (H, W) float32
+        0 where no photo saw the pixel, to 1 where one saw it well.
+    photo : (H, W) int16
+        Index of the photo that leads there; -1 where none.
+    """
+
+    rgb: np.ndarray
+    weight: np.ndarray
+    photo: np.ndarray
+
+    @property
+    def seen(self):
+        """(H, W) bool: where a photo saw anything."""
+        return self.weight > 0
+
+    def thinned(self, stride):
+        """Return those of one pixel in so many rows and columns."""
+        kept = np.s_[::stride, ::stride]
+        return Observed(self.rgb[kept], self.weight[kept], self.photo[kept])
+
+
+def outranked(observed, seeds, graph, alpha):
+    """Return the `Observed` colors without those where a person's seeds tell more.
+
+    A seed that was picked or locked colors what is nearer to it, along paths, than to places all over the photos.
+
+    Parameters
+    ----------
+    observed : Observed
+    seeds : Seeds
+        On pixels with a return.
+    graph : PixelGraph
+    alpha : float
+        See ``Settings``.
+    """
+    picked = _pixels(seeds, seeds.of_a_person & observed.seen[seeds.rows, seeds.cols], graph)
+    if not len(picked):
+        return observed
+    places = np.setdiff1d(_spaced(observed.seen), picked)
+    pixels, own = np.concatenate([picked, places]), np.repeat([1.0, 0.0], [len(picked), len(places)])
+    # Each pixel of the way costs something, or on an even wall a seed would reach as far as any.
+    around = replace(graph, step_cost=_STEP)
+    shares, _ = geodesic_spread(around, pixels, own[:, None], count=_NEAREST, alpha=alpha)
+    weight = observed.weight * (1 - shares[..., 0])
+    # Its own pixel has the color that the person gave it.
+    weight.reshape(-1)[picked] = 0
+    return Observed(observed.rgb, weight, np.where(weight > 0, observed.photo, np.int16(-1)))
+
+
+class Colored(NamedTuple):
+    """The values of every pixel, before colors are made of them."""
+
+    values: np.ndarray
+    """(H, W, C) float32, see `luminance.seed_values`."""
+    reached: np.ndarray
+    """(H, W) bool: where a seed or an observed color arrived."""
+    confidence: np.ndarray
+    """(H, W) float64, 0..1."""
+    weight: np.ndarray
+    """(H, W) float32, 0..1: how far the values are observed ones."""
+    photo: np.ndarray
+    """(H, W) int16: which photo's; -1 where they are inferred."""
+
+
+def inferred_only(spread):
+    """Return a `Spread` as `Colored` without photos."""
+    shape = spread.nearest_seed.shape
+    weight, photo = np.zeros(shape, np.float32), np.full(shape, -1, np.int16)
+    return Colored(spread.values, spread.reached, spread.confidence, weight, photo)
+
+
+def joined(spread, observed, seeds, graph, settings):
+    """Return the observed values and, elsewhere, the inferred ones brought near to them.
+
+    Parameters
+    ----------
+    spread : Spread
+        What seeds tell.
+    observed : Observed
+        See `outranked`.
+    seeds : Seeds
+        On pixels with a return.
+    graph : PixelGraph
+    settings : Settings
+
+    Returns
+    -------
+    Colored
+    """
+    fading = _fading(observed, graph)
+    carried, arrived = _carried(spread, observed, fading, seeds, graph, settings)
+    values = np.empty_like(spread.values)
+    # Where nothing else arrived what was seen badly is all there is.
+    weight = np.where(spread.reached | arrived, fading, observed.seen).astype(np.float32)
+    rows = max(1, _STRIP_PIXELS // values.shape[1])
+    for top in range(0, len(values), rows):
+        strip = slice(top, top + rows)
+        inferred = spread.values[strip] + carried[strip]
+        own = seed_values(observed.rgb[strip].reshape(-1, 3), settings).reshape(inferred.shape)
+        values[strip] = inferred + weight[strip][..., None] * (own - inferred)
+    confidence = observed.weight + (1 - observed.weight) * spread.confidence
+    return Colored(values, spread.reached | arrived | observed.seen, confidence, weight, observed.photo)
+
+
+def _fading(observed, graph):
+    """(H, W) float32: the weight of what was seen, less in the last few pixels before its border."""
+    import cv2
+
+    unseen = graph.valid & ~observed.seen
+    margin = _FADES + 1
+    sides = ((margin, margin), (margin, margin))
+    unseen = np.pad(unseen, (sides[0], (0, 0)))
+    unseen = np.pad(unseen, ((0, 0), sides[1]), mode="wrap" if graph.wrap else "constant")
+    distance = cv2.distanceTransform((~unseen).astype(np.uint8), cv2.DIST_L2, 5)[margin:-margin, margin:-margin]
+    return observed.weight * np.minimum(distance / np.float32(margin), 1)
+
+
+def _carried(spread, observed, fading, seeds, graph, settings):
+    """(H, W, C) float32: what is added to the inferred values beyond the border of what was seen; and (H, W) bool where
+    something arrived."""
+    import cv2
+
+    sure = fading >= _SURE
+    rest = graph.valid & ~sure
+    border = sure & (cv2.dilate(rest.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
+    pixels = np.flatnonzero(border)
+    if not len(pixels):
+        return np.zeros_like(spread.values), np.zeros(sure.shape, bool)
+    differences = _averaged(observed, pixels, settings) - spread.values.reshape(-1, spread.values.shape[-1])[pixels]
+    # Nothing is to be added to the color that a person gave.
+    anchors = _pixels(seeds, seeds.of_a_person & rest[seeds.rows, seeds.cols], graph)
+    pixels = np.concatenate([pixels, anchors])
+    differences = np.concatenate([differences, np.zeros((len(anchors), differences.shape[1]), np.float32)])
+    around = replace(graph, valid=rest | border, step_cost=_STEP)
+    carried, distance = geodesic_spread(around, pixels, differences, count=_NEAREST, alpha=_ALPHA)
+    arrived = np.isfinite(distance)
+    gain = np.where(arrived, 1 / (1 + distance / np.float32(_HALF_WAY)), 0)
+    # Without any seed the border is all there is.
+    gain[arrived & ~spread.reached] = 1
+    carried *= gain[..., None]
+    return carried, arrived
+
+
+def _pixels(seeds, chosen, graph):
+    """(P,) int, ``row * width + column``, of the chosen seeds, each once."""
+    return np.unique(np.ravel_multi_index((seeds.rows[chosen], seeds.cols[chosen]), graph.shape))
+
+
+def _averaged(observed, pixels, settings):
+    """(P, C) float32: the observed values around pixels, so that no speck is carried far."""
+    import cv2
+
+    seen = (observed.weight >= _SURE).astype(np.float32)
+    size = (_AVERAGED, _AVERAGED)
+    share = cv2.blur(seen, size)
+    rgb = cv2.blur(observed.rgb * seen[..., None], size) / np.maximum(share, np.float32(1e-6))[..., None]
+    return seed_values(rgb.reshape(-1, 3)[pixels], settings)
+
+
+def _spaced(seen):
+    """Pixels of a mask, one in each of about `_PLACES` squares of the grid."""
+    rows, cols = np.nonzero(seen)
+    side = max(1.0, np.sqrt(len(rows) / _PLACES))
+    square = (rows / side).astype(np.int64) * seen.shape[1] + (cols / side).astype(np.int64)
+    # That in the middle of each, in reading order.
+    order = np.argsort(square, kind="stable")
+    first = np.flatnonzero(np.diff(square[order], prepend=-1))
+    middle = (first + np.append(first[1:], len(order))) // 2
+    chosen = order[middle]
+    return rows[chosen] * seen.shape[1] + cols[chosen]

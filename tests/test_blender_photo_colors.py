@@ -1,0 +1,105 @@
+"""What photos saw, kept with a scan's object, and the texture, in Blender through the installed zip."""
+
+import importlib
+import json
+
+import numpy as np
+import pytest
+from blender_session import EXTENSION
+from small_scans import random_scan
+from test_blender_import import srgb, values, write_small_ptx
+
+from reflcolor_addon import Seeds, Settings, colorize, read_scans
+from reflcolor_addon.color.observed import Observed
+
+SHAPE = (6, 10)
+SEEDS = Seeds([0], [0], [[200, 80, 40]])
+
+
+@pytest.fixture
+def scan_file(tmp_path):
+    return write_small_ptx(tmp_path / "wall.ptx", random_scan(3, SHAPE))
+
+
+@pytest.fixture
+def observed():
+    """A photo that saw the right half."""
+    weight = np.zeros(SHAPE, np.float32)
+    weight[:, 5:] = 1
+    rgb = np.random.default_rng(0).integers(1, 255, (*SHAPE, 3)).astype(np.uint8)
+    return Observed(rgb * (weight > 0)[..., None], weight, np.where(weight > 0, 0, -1).astype(np.int16))
+
+
+@pytest.fixture
+def colorized(blender, scan_file, observed):
+    """bpy with a scan colorized from a seed and from what a photo saw, as Match Photos keeps it."""
+    blender.ops.reflcolor.import_scan(filepath=str(scan_file))
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.photo_colors")
+    module.keep_observed(blender.context.active_object, observed)
+    blender.ops.reflcolor.add_seed(row=0, col=0, color=[value / 255 for value in (200, 80, 40)])
+    blender.ops.reflcolor.colorize()
+    return blender
+
+
+def expected(scan_file, observed):
+    return colorize(read_scans(scan_file)[0], SEEDS, Settings.preset("Natural"), observed)
+
+
+def test_colorize_takes_what_photos_saw(colorized, scan_file, observed):
+    obj, result = colorized.context.active_object, expected(scan_file, observed)
+    np.testing.assert_array_equal(srgb(obj, "Colorized"), result.rgb.reshape(-1, 3))
+    np.testing.assert_array_equal(values(obj, "observed"), result.observed.ravel())
+    np.testing.assert_array_equal(values(obj, "photo", np.int32), result.photo.ravel())
+    assert json.loads(obj["reflcolor_provenance"])["result"]["observed"] == 30
+
+
+def test_under_paper_it_takes_nothing_of_it(colorized, scan_file):
+    colorized.ops.reflcolor.apply_preset(preset="Paper")
+    colorized.ops.reflcolor.colorize()
+    assert not values(colorized.context.active_object, "observed").any()
+
+
+def test_what_photos_saw_survives_saving_and_goes_with_the_seeds(colorized, scan_file, observed, tmp_path):
+    bpy = colorized
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "kept.blend"))
+    bpy.ops.reflcolor.colorize()
+    np.testing.assert_array_equal(
+        srgb(bpy.context.active_object, "Colorized"), expected(scan_file, observed).rgb.reshape(-1, 3)
+    )
+    bpy.ops.reflcolor.clear_seeds()
+    bpy.ops.reflcolor.add_seed(row=0, col=0, color=(1, 0, 0))
+    bpy.ops.reflcolor.colorize()
+    assert not values(bpy.context.active_object, "observed").any()
+
+
+@pytest.mark.parametrize(("look", "colors"), [("observed", "Observed_Map"), ("photo", "Photo_Map")])
+def test_maps_show_what_was_observed_and_by_which_photo(colorized, look, colors):
+    colorized.ops.reflcolor.show_look(look=look)
+    obj = colorized.context.active_object
+    assert obj.data.color_attributes.active_color_name == colors
+    legend = importlib.import_module(f"{EXTENSION}.operators.overlays.legend").legend_of(obj)
+    assert legend["title"] == {"observed": "Observed", "photo": "Photo"}[look]
+    if look == "photo":
+        assert legend["labels"][0] == "Photo 1" and legend["unknown"] == "Inferred"
+
+
+def test_a_texture_is_shown_until_other_colors_are_wanted(colorized):
+    colorized.ops.reflcolor.make_texture(pixels=128)
+    obj = colorized.context.active_object
+    nodes = obj.active_material.node_tree.nodes
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    node = shader.inputs["Base Color"].links[0].from_node
+    assert node.type == "TEX_IMAGE" and max(node.image.size) == 128
+    assert node.inputs["Vector"].links[0].from_node.uv_map == "Scan_Grid"
+    colorized.ops.reflcolor.show_look(look="gray")
+    assert shader.inputs["Base Color"].links[0].from_node.type == "ATTRIBUTE"
+
+
+def test_cameras_come_back_and_what_is_spoiled_is_none(colorized):
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.photo_colors")
+    obj = colorized.context.active_object
+    obj["reflcolor_cameras"] = "nonsense"
+    assert module.cameras_of(obj) == []
+    obj["reflcolor_cameras"] = "[null]"
+    assert module.cameras_of(obj) == [None]
