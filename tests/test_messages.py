@@ -1,8 +1,11 @@
 """Messages keep their template and values apart from the text."""
 
+import ast
 import copy
 import json
+from pathlib import Path
 
+from reflcolor_addon import errors
 from reflcolor_addon.errors import ScanError
 from reflcolor_addon.messages import Message, about_scan, translated, value_of
 
@@ -65,3 +68,22 @@ def test_a_line_about_one_of_several_scans_names_it_once():
     named = Message("{count} seeds lie where {scan} has no return", count=5, scan="wall")
     assert about_scan(named, "wall") is named
     assert about_scan(Message("try tone {tone}", tone=2), "wall") == "wall: try tone 2"
+
+
+def _put_together(node):
+    """Whether a text is an f-string with anything but a module's constants in it."""
+    parts = [part.value for part in node.values if isinstance(part, ast.FormattedValue)]
+    return not all(isinstance(part, ast.Name) and part.id.isupper() for part in parts)
+
+
+def test_no_error_or_message_of_the_core_is_put_together_before_it_is_shown():
+    sources = Path(__file__).resolve().parent.parent / "reflcolor_addon"
+    names = {name for name, kind in vars(errors).items() if isinstance(kind, type)} | {"Message", "UnusableScan"}
+    found = [
+        f"{path.name}:{node.lineno}"
+        for path in sorted(sources.rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", None) in names and node.args
+        if isinstance(node.args[0], ast.JoinedStr) and _put_together(node.args[0])
+    ]
+    assert found == []

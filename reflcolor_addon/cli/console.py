@@ -52,7 +52,7 @@ class Console:
         except OSError as error:
             _silence(sys.stdout)
             if not isinstance(error, BrokenPipeError):
-                raise OutputError(f"standard output: cannot be written ({error.strerror})") from error
+                raise OutputError("standard output: cannot be written ({strerror})", strerror=error.strerror) from error
 
     def finish(self):
         """Write out what is still held back, so that the interpreter's own way out has nothing to complain of."""

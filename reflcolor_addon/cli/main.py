@@ -87,7 +87,7 @@ class _Parser(argparse.ArgumentParser):
     """Says what is wrong in one line, and leaves the end of the program to the caller."""
 
     def error(self, message):
-        raise UsageError(f"{message} (see {self.prog} --help)")
+        raise UsageError("{message} (see {prog} --help)", message=message, prog=self.prog)
 
 
 def _parser(prog):

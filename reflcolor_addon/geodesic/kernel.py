@@ -96,17 +96,22 @@ class Graph:
         self.shape = arrays[2].shape
         if len(self.shape) != 2 or any(array.shape != self.shape for array in arrays):
             shapes = ", ".join(str(array.shape) for array in arrays)
-            raise ReflcolorError(f"luminance, range and valid must be images of one size, found {shapes}")
+            raise ReflcolorError("luminance, range and valid must be images of one size, found {shapes}", shapes=shapes)
         if neighbors not in (4, 8):
-            raise ReflcolorError(f"neighbors must be 4 or 8, found {neighbors}")
+            raise ReflcolorError("neighbors must be 4 or 8, found {neighbors}", neighbors=neighbors)
         for name, value in (("beta", beta), ("step_cost", step_cost)):
             if not 0 <= value <= np.finfo(np.float32).max:
-                raise ReflcolorError(f"{name} must be finite and at least 0, found {value}")
+                raise ReflcolorError("{name} must be finite and at least 0, found {value}", name=name, value=value)
         arrays = [_rows(array) for array in arrays]
         height, width = self.shape
         size = library().rc_plane_size(height, width)
         if size < 0:
-            raise ReflcolorError(f"a graph needs 1 to {2**31 - 1} pixels, found an image of {height} x {width}")
+            raise ReflcolorError(
+                "a graph needs 1 to {most} pixels, found an image of {height} x {width}",
+                most=2**31 - 1,
+                height=height,
+                width=width,
+            )
         self._y, self._d = np.empty(size, np.float32), np.empty(size, np.float32)
         strided = [part for array in arrays for part in (address(array), array.strides[0] // array.itemsize)]
         planes = address(self._y), address(self._d)
@@ -136,12 +141,19 @@ class Graph:
     def _pixels(self, pixels):
         pixels = np.ascontiguousarray(np.atleast_1d(pixels), np.int64)
         if pixels.ndim != 1 or not pixels.size:
-            raise ReflcolorError(f"at least one seed pixel is needed, found an array of shape {pixels.shape}")
+            raise ReflcolorError(
+                "at least one seed pixel is needed, found an array of shape {shape}", shape=pixels.shape
+            )
         height, width = self.shape
         outside = (pixels < 0) | (pixels >= height * width)
         if outside.any():
             found = int(pixels[outside][0])
-            raise ReflcolorError(f"seed pixel {found} lies outside the image of {height} x {width}")
+            raise ReflcolorError(
+                "seed pixel {found} lies outside the image of {height} x {width}",
+                found=found,
+                height=height,
+                width=width,
+            )
         return pixels
 
 
@@ -222,7 +234,7 @@ def nearest(graph, pixels, k, *, threads=1, known=None, control=None):
     """
     pixels = graph._pixels(pixels)
     if not 1 <= k <= MAX_NEAREST:
-        raise ReflcolorError(f"the number of nearest seeds must be 1 to {MAX_NEAREST}, found {k}")
+        raise ReflcolorError("the number of nearest seeds must be 1 to {most}, found {k}", most=MAX_NEAREST, k=k)
     control = control or Control()
     if known is None and k >= _MANY:
         known = nearest(graph, pixels, _FEW, threads=threads, control=control.uncounted())
@@ -380,9 +392,18 @@ class Blend:
         channels, height, width = self._mean.values.shape
         for distances in fields:
             if distances.shape != (height, width):
-                raise ReflcolorError(f"distances of shape {distances.shape} do not fit an image {height} x {width}")
+                raise ReflcolorError(
+                    "distances of shape {shape} do not fit an image {height} x {width}",
+                    shape=distances.shape,
+                    height=height,
+                    width=width,
+                )
         if values.shape != (len(fields), channels):
-            raise ReflcolorError(f"expected values of shape {(len(fields), channels)}, found {values.shape}")
+            raise ReflcolorError(
+                "expected values of shape {expected}, found {shape}",
+                expected=(len(fields), channels),
+                shape=values.shape,
+            )
         sums = (self._mean.least, self._mean.nearest_seed, self._mean.weight, self._mean.values[0])
         rows = max(1, _PIXELS_AT_ONCE // width)
 
@@ -410,13 +431,17 @@ class Blend:
 
 def _check_alpha(alpha):
     if not 0 <= alpha <= np.finfo(np.float32).max:
-        raise ReflcolorError(f"alpha must be finite and at least 0, found {alpha}")
+        raise ReflcolorError("alpha must be finite and at least 0, found {alpha}", alpha=alpha)
 
 
 def _values(values):
     values = np.ascontiguousarray(values, np.float32)
     if values.ndim != 2 or not 1 <= values.shape[1] <= MAX_CHANNELS:
-        raise ReflcolorError(f"expected values of shape (seeds, 1 to {MAX_CHANNELS}), found {values.shape}")
+        raise ReflcolorError(
+            "expected values of shape (seeds, 1 to {most}), found {shape}",
+            most=MAX_CHANNELS,
+            shape=values.shape,
+        )
     if not np.isfinite(values).all():
         raise ReflcolorError("the seeds' values must be finite, found NaN or infinity")
     return values

@@ -10,6 +10,7 @@ from ..color.observed import Observed
 from ..errors import Cancelled, ImageError, SeedsError
 from ..files.photo import Photo
 from ..files.photo_files import photos_of
+from ..messages import Message
 from ..progress import IsCancelled, Progress
 from ..scan.scan import Scan, require_scan
 from ..seeds.seeds import Seeds
@@ -214,7 +215,7 @@ def match_site(
     for scan in scans:
         require_scan(scan)
         if not scan.valid.any():
-            raise SeedsError(f"{scan.name}: no pixel has a return, so nothing can be matched")
+            raise SeedsError("{scan}: no pixel has a return, so nothing can be matched", scan=scan.name)
     hand = [None if own is None else _picked(own) for own in _placed(hand, scans)]
     kept = _placed(kept, scans)
     progress(0.0, "Opening the photos")
@@ -267,14 +268,26 @@ def opened_photos(photos, warnings=None):
         for photo in _photos(given, number, names, warnings):
             rgb = photo.rgb
             if rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.dtype != np.uint8:
-                raise ImageError(f"{photo.name}: expected (H, W, 3) uint8, found {rgb.shape} {rgb.dtype}")
+                raise ImageError(
+                    "{photo}: expected (H, W, 3) uint8, found {shape} {dtype}",
+                    photo=photo.name,
+                    shape=rgb.shape,
+                    dtype=rgb.dtype,
+                )
             if min(rgb.shape[:2]) < _LEAST_SIDE:
                 raise ImageError(
-                    f"{photo.name}: has {rgb.shape[1]} x {rgb.shape[0]} pixels, expected at least "
-                    f"{_LEAST_SIDE} on each side"
+                    "{photo}: has {width} x {height} pixels, expected at least {least} on each side",
+                    photo=photo.name,
+                    width=rgb.shape[1],
+                    height=rgb.shape[0],
+                    least=_LEAST_SIDE,
                 )
             if any(photo.name == other.name for other in opened):
-                raise ImageError(f"{given if isinstance(given, str | Path) else photo.name}: {_TWICE}")
+                raise ImageError(
+                    "{photo}: {problem}",
+                    photo=given if isinstance(given, str | Path) else photo.name,
+                    problem=Message(_TWICE),
+                )
             opened.append(PhotoImage(photo.name, rgb, photo.place))
     return opened
 

@@ -130,7 +130,7 @@ def check(code):
     if code == _MEMORY:
         raise MemoryError
     if code != OK:
-        raise ReflcolorError(f"the kernel refused {_REFUSED.get(code, f'its arguments (code {code})')}")
+        raise ReflcolorError("the kernel refused {code}", code=_REFUSED.get(code, f"its arguments (code {code})"))
 
 
 def address(array):

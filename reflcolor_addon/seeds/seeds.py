@@ -92,16 +92,25 @@ class Seeds:
         for name, array in arrays.items():
             expected = (count, *{"rgb": (3,), "photo_xy": (2,)}.get(name, ()))
             if array.shape != expected:
-                raise SeedsError(f"seeds: {name} has shape {array.shape}, expected {expected}")
+                raise SeedsError(
+                    "seeds: {name} has shape {shape}, expected {expected}",
+                    name=name,
+                    shape=array.shape,
+                    expected=expected,
+                )
             object.__setattr__(self, name, array)
         if len(photos) != count:
-            raise SeedsError(f"seeds: {len(photos)} photo names for {count} seeds")
+            raise SeedsError("seeds: {count} photo names for {seeds} seeds", count=len(photos), seeds=count)
         object.__setattr__(self, "photos", photos)
         if len(reason) != count:
-            raise SeedsError(f"seeds: {len(reason)} reasons for {count} seeds")
+            raise SeedsError("seeds: {count} reasons for {seeds} seeds", count=len(reason), seeds=count)
         unknown = set(reason) - {None, *SOURCES}
         if unknown:
-            raise SeedsError(f"seeds: reason: expected one of {', '.join(SOURCES)}, found {sorted(unknown)[0]!r}")
+            raise SeedsError(
+                "seeds: reason: expected one of {choices}, found {found!r}",
+                choices=", ".join(SOURCES),
+                found=sorted(unknown)[0],
+            )
         object.__setattr__(self, "reason", reason)
 
     def __len__(self):
@@ -200,14 +209,19 @@ class Seeds:
         if len(self) == 0:
             raise SeedsError("no seeds: add at least one pixel with a color")
         if not scan.valid.any():
-            raise SeedsError(f"{scan.name}: no pixel has a return, so no seed can be placed")
+            raise SeedsError("{scan}: no pixel has a return, so no seed can be placed", scan=scan.name)
         height, width = scan.shape
         rows, cols, warnings = self.rows.copy(), self.cols.copy(), []
         for index, (row, col) in enumerate(zip(rows.tolist(), cols.tolist(), strict=True)):
             if not (0 <= row < height and 0 <= col < width):
                 raise SeedsError(
-                    f"seed {index + 1}: row {row}, column {col} is outside the scan's grid "
-                    f"(rows 0 to {height - 1}, columns 0 to {width - 1})"
+                    "seed {seed}: row {row}, column {col} is outside the scan's grid (rows 0 to {last_row}, columns 0 "
+                    "to {last_col})",
+                    seed=index + 1,
+                    row=row,
+                    col=col,
+                    last_row=height - 1,
+                    last_col=width - 1,
                 )
             if not scan.valid[row, col]:
                 rows[index], cols[index] = nearest_valid(scan.valid, row, col, wrap=scan.full_turn)
@@ -291,7 +305,13 @@ def find_photo(name, seeds_path, photos):
     tail = Path(name).parts
     given = [path for path in given if path.absolute().parts[-len(tail) :] == tail] or given
     if len(given) > 1:
-        raise SeedsError(f"{seeds_path}: photo {name} may be {given[0]} or {given[1]}; give them different names")
+        raise SeedsError(
+            "{file}: photo {name} may be {one} or {other}; give them different names",
+            file=seeds_path,
+            name=name,
+            one=given[0],
+            other=given[1],
+        )
     path = given[0] if given else beside(seeds_path, name)
     try:
         return path if path is not None and path.is_file() else None
@@ -315,7 +335,9 @@ def sample_photo(photo, x, y):
     """
     height, width = photo.shape[:2]
     if not (0 <= x <= width and 0 <= y <= height):
-        raise SeedsError(f"point {x:g}, {y:g} is outside the photo ({width} x {height} pixels)")
+        raise SeedsError(
+            "point {x:g}, {y:g} is outside the photo ({width} x {height} pixels)", x=x, y=y, width=width, height=height
+        )
     return photo[min(int(y), height - 1), min(int(x), width - 1)]
 
 
@@ -340,59 +362,95 @@ class _SeedsFile:
             raise SeedsError('{file}: expected a JSON object with "format": "{format}"', file=self._path, format=FORMAT)
         if document.get("version") != VERSION:
             found = reprlib.repr(document.get("version"))
-            raise SeedsError(f'{self._path}: "version": expected {VERSION}, found {found}')
+            raise SeedsError(
+                '{path}: "version": expected {expected}, found {found}', path=self._path, expected=VERSION, found=found
+            )
         if not isinstance(document.get("seeds"), list):
-            raise SeedsError(f'{self._path}: "seeds": expected a list, found {reprlib.repr(document.get("seeds"))}')
+            raise SeedsError(
+                '{path}: "seeds": expected a list, found {value}',
+                path=self._path,
+                value=reprlib.repr(document.get("seeds")),
+            )
         return document
 
     def _entry(self, place, entry):
         where = f"{self._path}: seed {place}"
         if not isinstance(entry, dict):
-            raise SeedsError(f"{where}: expected an object with row, col and a color, found {reprlib.repr(entry)}")
+            raise SeedsError(
+                "{where}: expected an object with row, col and a color, found {entry}",
+                where=where,
+                entry=reprlib.repr(entry),
+            )
         unknown = sorted(set(entry) - set(_KEYS))
         if unknown:
-            raise SeedsError(f"{where}: {unknown[0]}: not a key of a seed; known are {', '.join(_KEYS)}")
+            raise SeedsError(
+                "{where}: {key}: not a key of a seed; known are {choices}",
+                where=where,
+                key=unknown[0],
+                choices=", ".join(_KEYS),
+            )
         row, col = (self._number(where, entry, key, Integral) for key in ("row", "col"))
         photo, xy = None, (math.nan, math.nan)
         if "photo" in entry:
             photo = entry["photo"]
             if not isinstance(photo, str) or not photo:
-                raise SeedsError(f"{where}: photo: expected a file name, found {reprlib.repr(photo)}")
+                raise SeedsError(
+                    "{where}: photo: expected a file name, found {photo}", where=where, photo=reprlib.repr(photo)
+                )
             xy = tuple(float(self._number(where, entry, key, Real)) for key in ("x", "y"))
         if "rgb" in entry:
             rgb = entry["rgb"]
             whole = isinstance(rgb, list) and all(type(value) is int and 0 <= value <= 255 for value in rgb)
             if not whole or len(rgb) != 3:
-                raise SeedsError(f"{where}: rgb: expected three whole numbers from 0 to 255, found {reprlib.repr(rgb)}")
+                raise SeedsError(
+                    "{where}: rgb: expected three whole numbers from 0 to 255, found {rgb}",
+                    where=where,
+                    rgb=reprlib.repr(rgb),
+                )
         elif photo is not None:
             image = self._image(photo, where)
             try:
                 rgb = sample_photo(image, *xy)
             except SeedsError as error:
-                raise SeedsError(f"{where}: {photo}: {error}") from error
+                raise SeedsError("{where}: {photo}: {error}", where=where, photo=photo, error=error) from error
         else:
-            raise SeedsError(f"{where}: expected a color: either rgb, or photo with x and y")
+            raise SeedsError("{where}: expected a color: either rgb, or photo with x and y", where=where)
         confidence = float(self._number(where, entry, "confidence", Real)) if "confidence" in entry else math.nan
         reason = entry.get("reason")
         if reason is not None and reason not in SOURCES:
-            raise SeedsError(f"{where}: reason: expected one of {', '.join(SOURCES)}, found {reprlib.repr(reason)}")
+            raise SeedsError(
+                "{where}: reason: expected one of {choices}, found {reason}",
+                where=where,
+                choices=", ".join(SOURCES),
+                reason=reprlib.repr(reason),
+            )
         locked = entry.get("locked", False)
         if not isinstance(locked, bool):
-            raise SeedsError(f"{where}: locked: expected true or false, found {reprlib.repr(locked)}")
+            raise SeedsError(
+                "{where}: locked: expected true or false, found {found}", where=where, found=reprlib.repr(locked)
+            )
         return row, col, rgb, photo, xy, confidence, reason, locked
 
     def _number(self, where, entry, key, kind):
         value = entry.get(key)
         if isinstance(value, bool) or not isinstance(value, kind) or not abs(value) < 1e9:
             expected = "a whole number" if kind is Integral else "a number"
-            raise SeedsError(f"{where}: {key}: expected {expected}, found {reprlib.repr(value)}")
+            raise SeedsError(
+                "{where}: {key}: expected {expected}, found {value}",
+                where=where,
+                key=key,
+                expected=expected,
+                value=reprlib.repr(value),
+            )
         return value
 
     def _image(self, name, where):
         if name not in self._images:
             path = find_photo(name, self._path, self._photos)
             if path is None:
-                raise SeedsError(f"{where}: photo {name} was not given and is not beside the seeds' file")
+                raise SeedsError(
+                    "{where}: photo {name} was not given and is not beside the seeds' file", where=where, name=name
+                )
             self._images[name] = read_image(path)
         return self._images[name]
 
@@ -402,7 +460,12 @@ def _whole_numbers(name, values, dtype):
     if array.size == 0:
         return array.astype(dtype)
     if array.dtype.kind not in "iu":
-        raise SeedsError(f"seeds: {name}: expected whole numbers, found {array.dtype}")
+        raise SeedsError("seeds: {name}: expected whole numbers, found {dtype}", name=name, dtype=array.dtype)
     if dtype == np.uint8 and (array.min() < 0 or array.max() > 255):
-        raise SeedsError(f"seeds: {name}: expected 0 to 255, found {array.min()} to {array.max()}")
+        raise SeedsError(
+            "seeds: {name}: expected 0 to 255, found {low} to {high}",
+            name=name,
+            low=array.min(),
+            high=array.max(),
+        )
     return array.astype(dtype)

@@ -99,10 +99,14 @@ class ScannerModel:
         for name in ("rows", "columns", "reflectance_bits", "seed"):
             value = getattr(self, name)
             if not isinstance(value, Integral) or isinstance(value, bool):
-                raise SettingsError(f"{name}: expected a whole number, found {value!r}")
+                raise SettingsError("{name}: expected a whole number, found {value!r}", name=name, value=value)
         for field in fields(self):
             if not np.isfinite(np.asarray(getattr(self, field.name), np.float64)).all():
-                raise SettingsError(f"{field.name}: expected a finite number, found {getattr(self, field.name)!r}")
+                raise SettingsError(
+                    "{field}: expected a finite number, found {value!r}",
+                    field=field.name,
+                    value=getattr(self, field.name),
+                )
         left, right = self.azimuth_deg
         bottom, top = self.elevation_deg
         near, far = self.range_limits_m
@@ -120,7 +124,7 @@ class ScannerModel:
         )
         for holds, name, expected in rules:
             if not holds:
-                raise SettingsError(f"{name}: expected {expected}")
+                raise SettingsError("{name}: expected {expected}", name=name, expected=expected)
         for name in (
             "range_noise_m",
             "range_step_m",
@@ -132,7 +136,7 @@ class ScannerModel:
             "detection_limit",
         ):
             if getattr(self, name) < 0:
-                raise SettingsError(f"{name}: expected 0 or more, found {getattr(self, name)!r}")
+                raise SettingsError("{name}: expected 0 or more, found {value!r}", name=name, value=getattr(self, name))
 
     @property
     def step_deg(self):

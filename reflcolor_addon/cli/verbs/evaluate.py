@@ -47,7 +47,11 @@ def run(arguments, session):
         # Scanners write black where they saw no color.
         truth, compared = scan.color, scan.valid & scan.color.any(axis=-1)
     else:
-        raise ScanError(f"{arguments.input}: the scan {scan.name} has no colors of its own; give --truth IMAGE")
+        raise ScanError(
+            "{input}: the scan {scan} has no colors of its own; give --truth IMAGE",
+            input=arguments.input,
+            scan=scan.name,
+        )
     session.progress(0.5, f"Comparing {arguments.result.name}")
     figures = evaluate(rgb, truth, compared)
     if arguments.json:
@@ -62,8 +66,14 @@ def _image_of(scan, path, warnings):
     if image.shape[:2] != scan.shape:
         (rows, columns), (height, width) = scan.shape, image.shape[:2]
         raise ImageError(
-            f"{path}: is {width} x {height} pixels, but the scan {scan.name} has {columns} columns x {rows} rows; "
-            "they must be the same"
+            "{path}: is {width} x {height} pixels, but the scan {scan} has {columns} columns x {rows} rows; "
+            "they must be the same",
+            path=path,
+            width=width,
+            height=height,
+            scan=scan.name,
+            columns=columns,
+            rows=rows,
         )
     return image
 

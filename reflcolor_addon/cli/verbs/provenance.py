@@ -26,16 +26,20 @@ def run(arguments, session):
     """Print from what inputs, seeds and settings the scans of a .blend were colorized."""
     require_blender(session.blender, NAME)
     if not arguments.input.is_file():
-        raise ReflcolorError(f"{arguments.input}: no such file; expected a file saved by Blender")
+        raise ReflcolorError("{input}: no such file; expected a file saved by Blender", input=arguments.input)
     found = dict(session.blender.read_provenance(arguments.input))
     if not found:
-        raise ReflcolorError(f"{arguments.input}: holds no scan")
+        raise ReflcolorError("{input}: holds no scan", input=arguments.input)
     if arguments.object is not None:
         if arguments.object not in found:
-            raise UsageError(f"--object {arguments.object}: not one of the scans {', '.join(found)}")
+            raise UsageError(
+                "--object {object}: not one of the scans {choices}", object=arguments.object, choices=", ".join(found)
+            )
         found = {arguments.object: found[arguments.object]}
     if not any(found.values()):
-        raise ReflcolorError(f"{arguments.input}: {', '.join(found)} {_NONE}")
+        raise ReflcolorError(
+            "{input}: {objects} {problem}", input=arguments.input, objects=", ".join(found), problem=_NONE
+        )
     reports, summaries = {}, []
     for name, text in found.items():
         try:
@@ -43,7 +47,7 @@ def run(arguments, session):
             if text and not arguments.json:
                 summaries.append(_summary(name, reports[name]))
         except ReflcolorError as error:
-            raise ReflcolorError(f"{arguments.input}: {name}: {error}") from error
+            raise ReflcolorError("{input}: {name}: {error}", input=arguments.input, name=name, error=error) from error
         if not text:
             session.warnings.append(f"{name} {_NONE}")
     if arguments.json:

@@ -97,13 +97,15 @@ def run(arguments, session):
     require_blender(session.blender, NAME)
     if not arguments.output.name.lower().endswith(_SUFFIXES):
         raise UsageError(
-            f"-o {arguments.output}: the suffix tells what to write; expected one of {', '.join(_SUFFIXES)}"
+            "-o {output}: the suffix tells what to write; expected one of {choices}",
+            output=arguments.output,
+            choices=", ".join(_SUFFIXES),
         )
     for option, value in (("--photo-samples", arguments.photo_samples), ("--plain-photos", arguments.plain_photos)):
         if value and not arguments.photos:
-            raise UsageError(f"{option} says how photos are taken; give --photos, too")
+            raise UsageError("{option} says how photos are taken; give --photos, too", option=option)
     if not arguments.input.is_file():
-        raise ReflcolorError(f"{arguments.input}: no such file; expected a scene saved by Blender")
+        raise ReflcolorError("{input}: no such file; expected a scene saved by Blender", input=arguments.input)
     request = SimulationRequest(
         scene=arguments.input,
         output=arguments.output,
@@ -116,7 +118,9 @@ def run(arguments, session):
         own_look=not arguments.plain_photos,
     )
     if request.photo_samples < 1:
-        raise UsageError(f"--photo-samples: expected 1 or more, found {request.photo_samples}")
+        raise UsageError(
+            "--photo-samples: expected 1 or more, found {photo_samples}", photo_samples=request.photo_samples
+        )
     check_outputs([("-o", arguments.output)], [arguments.input])
     session.blender.simulate(request, session.progress, session.written)
     for path in session.written:
@@ -126,7 +130,7 @@ def run(arguments, session):
 def _scanner(arguments):
     width = 360.0 if arguments.full_turn else arguments.width_deg
     if not 0 < width <= 360:
-        raise UsageError(f"--width-deg: expected more than 0 and at most 360 degrees, found {width:g}")
+        raise UsageError("--width-deg: expected more than 0 and at most 360 degrees, found {width:g}", width=width)
     try:
         return ScannerModel(
             rows=arguments.rows,
@@ -142,4 +146,4 @@ def _scanner(arguments):
         )
     except SettingsError as error:
         name, _, expected = str(error).partition(":")
-        raise UsageError(f"{_OPTIONS.get(name, name)}:{expected}") from error
+        raise UsageError("{name}:{expected}", name=_OPTIONS.get(name, name), expected=expected) from error

@@ -44,7 +44,9 @@ def write_e57(scans: Scan | Iterable[Scan], path: PathLike | str) -> None:
     try:
         from pye57 import libe57
     except ModuleNotFoundError:
-        raise OutputError(f"{path}: cannot be written: E57 needs pye57, which is not there; write it as PTX") from None
+        raise OutputError(
+            "{path}: cannot be written: E57 needs pye57, which is not there; write it as PTX", path=path
+        ) from None
     with written_atomically(path) as temporary:
         image = libe57.ImageFile(str(temporary), "w")
         try:
@@ -53,7 +55,7 @@ def write_e57(scans: Scan | Iterable[Scan], path: PathLike | str) -> None:
             for scan in scans:
                 document.write_scan(scan)
         except libe57.E57Exception as error:
-            raise OutputError(f"{path}: cannot be written as E57 ({error})") from error
+            raise OutputError("{path}: cannot be written as E57 ({error})", path=path, error=error) from error
         finally:
             image.close()
 
@@ -61,15 +63,23 @@ def write_e57(scans: Scan | Iterable[Scan], path: PathLike | str) -> None:
 def _check(scan, path):
     if max(scan.shape) > _MOST_PER_SIDE:
         raise OutputError(
-            f"{path}: {scan.name} has {scan.shape[0]} x {scan.shape[1]} pixels, E57 readers take at most "
-            f"{_MOST_PER_SIDE} a side; write it as PTX"
+            "{path}: {scan} has {rows} x {columns} pixels, E57 readers take at most {most} a side; write it as PTX",
+            path=path,
+            scan=scan.name,
+            rows=scan.shape[0],
+            columns=scan.shape[1],
+            most=_MOST_PER_SIDE,
         )
     if not scan.valid.any():
-        raise OutputError(f"{path}: {scan.name} has no return; there is nothing to write")
+        raise OutputError("{path}: {scan} has no return; there is nothing to write", path=path, scan=scan.name)
     rotation = scan.pose[:3, :3]
     rigid = np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) and np.linalg.det(rotation) > 0
     if not rigid or not np.allclose(scan.pose[3], [0, 0, 0, 1]):
-        raise OutputError(f"{path}: {scan.name}: its pose is more than a rotation and a translation; write it as PTX")
+        raise OutputError(
+            "{path}: {scan}: its pose is more than a rotation and a translation; write it as PTX",
+            path=path,
+            scan=scan.name,
+        )
 
 
 class _Document:

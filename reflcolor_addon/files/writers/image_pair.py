@@ -53,7 +53,7 @@ def write_image_pair(
     """
     path = Path(path)
     if not path.name.endswith(SUFFIX):
-        raise OutputError(f"{path}: cannot be written: an image pair's name ends in {SUFFIX}")
+        raise OutputError("{path}: cannot be written: an image pair's name ends in {suffix}", path=path, suffix=SUFFIX)
     if azimuth_deg is None or elevation_deg is None:
         azimuth_deg, elevation_deg = spherical_limits_deg(scan)
     _check_grid(scan, azimuth_deg, elevation_deg)
@@ -91,7 +91,9 @@ def spherical_limits_deg(scan):
     valid, points = scan.valid, scan.points
     rows, columns = np.flatnonzero(valid.any(axis=1)), np.flatnonzero(valid.any(axis=0))
     if rows.size < 2 or columns.size < 2:
-        raise OutputError(f"{scan.name}: too few returns to find the grid's angles; give azimuth_deg and elevation_deg")
+        raise OutputError(
+            "{scan}: too few returns to find the grid's angles; give azimuth_deg and elevation_deg", scan=scan.name
+        )
     elevation = np.degrees(np.arctan2(points[..., 2], np.hypot(points[..., 0], points[..., 1])))
     top = np.ma.median(np.ma.array(elevation, mask=~valid), axis=1).filled(np.nan)[rows]
     azimuth = np.degrees(np.arctan2(points[..., 0], points[..., 1]))
@@ -118,7 +120,7 @@ def _check_grid(scan, azimuth_deg, elevation_deg):
     away = np.linalg.norm(rays * scan.range[..., None] - scan.points, axis=-1)[scan.valid]
     allowed = np.radians(max(abs(step[0]), abs(step[1]))) * _GRID_TOLERANCE * scan.range[scan.valid] + 1e-4
     if (away > allowed).any():
-        raise OutputError(f"{scan.name}: its points lie on no regular grid of angles; write it as PTX or E57")
+        raise OutputError("{scan}: its points lie on no regular grid of angles; write it as PTX or E57", scan=scan.name)
 
 
 def _as_16_bit(scan):
