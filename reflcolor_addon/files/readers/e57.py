@@ -1,5 +1,9 @@
 """E57: scans of points that know their row and column, or the line that they are in."""
 
+from functools import partial
+
+import numpy as np
+
 from ...errors import Cancelled, ScanError
 from ..gate import size_of
 from ..memory import require_memory
@@ -45,8 +49,8 @@ def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
         The error for one that cannot be used.
     order : GridOrder
         The way from the stored grid to the scan's; None for one that cannot be used.
-    cells : (N,) int64
-        Pixel of the stored grid that each point of the file is in, row by row; -1 for none.
+    cells : callable
+        Returns (N,) int64: the pixel of the stored grid that each point of the file is in, row by row; -1 for none.
     """
     root, xml_size = read_structure(file, path, cancelled)
     nodes = scan_nodes(root, path)
@@ -76,7 +80,7 @@ def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
             read = columns.read(index, header.count, header.fields, tell)
             try:
                 stored, cells = stored_grids(read, header, options)
-                yield (*finish_grid(source=path, **stored), cells)
+                yield (*finish_grid(source=path, **stored), partial(np.asarray, cells))
             except UnusableScan as error:
                 yield error, None, None
 

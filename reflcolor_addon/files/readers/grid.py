@@ -100,7 +100,9 @@ def finish_grid(
         raise UnusableScan(
             "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
         )
-    points[~usable] = 0.0
+    left = ~usable & ~(largest == 0)
+    if left.any():
+        points[left] = 0.0
     try:
         settled = Settled(points, usable, pose, places or {}, origin, options, warn)
     except NoGrid:

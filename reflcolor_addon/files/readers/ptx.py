@@ -1,6 +1,7 @@
 """PTX: text, one or several scans one after another, each a header and its points column by column."""
 
 import re
+from functools import partial
 
 import numpy as np
 
@@ -59,7 +60,7 @@ def read_ptx(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
 def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
     """Yield for every scan of a PTX file, in its order, (scan, order, cells), as the one of E57 does.
 
-    ``cells`` has one number for each line of points of the scan.
+    ``cells()`` has one number for each line of points of the scan.
     """
     stored = _stored_scans(file, path, options, progress, cancelled)
     while stored:
@@ -69,7 +70,8 @@ def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
         cells = scan.pop("cells")
         try:
             if options.grid == ANGLE:
-                cells = _by_angle(scan, cells, path, options)
+                by_angle = _by_angle(scan, cells(), path, options)
+                cells = partial(np.asarray, by_angle)
             yield (*finish_grid(source=path, **scan), cells)
         except UnusableScan as error:
             yield error, None, None
@@ -212,15 +214,20 @@ def _in_lines(body, found, columns, rows, notes):
             else values[: lines * length].reshape(lines, length, *values.shape[1:]).swapaxes(0, 1)
         )
 
-    cells = np.full(found, -1)
-    cells[: lines * length] = np.arange(length * lines).reshape(length, lines).T.ravel()
     return {
-        "cells": cells,
+        "cells": partial(_cells, found, lines, length),
         "points": grid(body.points),
         "reflectance": grid(body.intensity),
         "valid": np.ones((length, lines), bool),
         "color": grid(body.color_in_8_bits(notes)),
     }
+
+
+def _cells(found, lines, length):
+    """(N,) pixel of each line of points of the file, in a grid of so many columns; -1 behind the last whole one."""
+    cells = np.full(found, -1)
+    cells[: lines * length] = np.arange(length * lines).reshape(length, lines).T.ravel()
+    return cells
 
 
 class _Body:

@@ -78,6 +78,7 @@ def _point_colors(file, source, colors, path, options, warnings, progress, cance
             raise OutputError(
                 "{file}: {source} is not the file any more that its scans were read from", file=path, source=source.name
             )
+        cells = cells()
         there = cells >= 0
         pixels = np.full(len(cells), -1, np.int64)
         pixels[there] = order.pixels(*np.divmod(cells[there], order.stored[1]))
