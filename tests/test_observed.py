@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from small_scans import random_scan, scan_from_ranges
 
-from reflcolor_addon import Colorizer, ReflcolorError, Seeds, Settings, colorize
+from reflcolor_addon import Cancelled, Colorizer, ReflcolorError, Seeds, Settings, colorize
 from reflcolor_addon.color.observed import Observed
 from reflcolor_addon.report.provenance import outline
 from reflcolor_addon.report.report import build_report, scan_entry
@@ -121,6 +121,14 @@ def test_a_colorizer_gives_the_same_again_and_follows_what_changes():
         settings = replace(NATURAL, light=light)
         ours = colorizer.colorize(seeds, settings, seen)
         assert ours.rgb.tobytes() == colorize(scan, seeds, settings, seen).rgb.tobytes()
+
+
+def test_joining_can_be_cancelled():
+    scan, seeds = random_scan(shape=SHAPE), found([5], [5], [[90, 60, 40]])
+    colorizer = Colorizer(scan, NATURAL)
+    spread, _ = colorizer.spread(seeds)
+    with pytest.raises(Cancelled):
+        colorizer.joined(spread, seeds, observed_left(), cancelled=lambda: True)
 
 
 def test_colors_of_another_scan_are_refused():

@@ -49,8 +49,9 @@ def report_of(scan, seeds, tmp_path):
     return report
 
 
-def test_it_says_what_was_colorized_and_how(report_of, scan):
-    report = report_of(Settings(alpha=4.0, beta=0.0, color_space="cielab", neighbors=4))
+def test_it_says_what_was_colorized_and_how(report_of, scan, seeds):
+    settings = Settings(alpha=4.0, beta=0.0, color_space="cielab", neighbors=4)
+    report = report_of(settings)
     assert report["scan"] == {
         "name": "garage", "index": 2, "rows": 6, "columns": 10, "returns": 59, "full_turn": False, "flipped": [],
     }  # fmt: skip
@@ -61,7 +62,14 @@ def test_it_says_what_was_colorized_and_how(report_of, scan):
         "reflectance": np.percentile(scan.reflectance[scan.valid].astype(float), (1, 99)).tolist(),
         "range_m": np.percentile(scan.range[scan.valid], (1, 99)).tolist(),
     }
-    assert report["result"] == {"colored": 59, "unreached": 0, "observed": 0, "guessed": False}
+    confidence = colorize(scan, seeds, settings).confidence[scan.valid].mean()
+    assert report["result"] == {
+        "colored": 59,
+        "unreached": 0,
+        "observed": 0,
+        "guessed": False,
+        "mean_confidence": pytest.approx(confidence, abs=1e-4),
+    }
 
 
 def test_it_names_every_seed_as_it_was_used_and_as_it_was_given(report_of):

@@ -10,10 +10,11 @@ from ..errors import Cancelled, ReflcolorError
 from ..files.memory import require_memory
 from ..geodesic.blending import left_out
 from ..geodesic.engines import engine_for
-from ..geodesic.exact import HeldFields, add_fields
+from ..geodesic.exact import HeldFields, add_fields, done_apart
 from ..geodesic.graph import PixelGraph
 from ..geodesic.smoothing import smooth
 from ..messages import Message
+from ..native.library import Control
 from ..progress import IsCancelled, Progress
 from ..scan.normalization import normalize
 from ..scan.scan import Scan, require_scan
@@ -137,7 +138,7 @@ class Colorizer:
         seeds, warnings = seeds.placed_on(self.scan)
         spread, more = self.spread(seeds, settings, progress=progress, cancelled=cancelled)
         progress(_COLORED, "Joining what photos saw")
-        colored = self.joined(spread, seeds, observed)
+        colored = self.joined(spread, seeds, observed, cancelled=cancelled)
         progress(_JOINED, "Writing the colors")
         unreached = int(np.count_nonzero(self.scan.valid & ~colored.reached))
         if unreached:
@@ -168,7 +169,7 @@ class Colorizer:
             method=dict(spread.method),
         )
 
-    def joined(self, spread, seeds, observed):
+    def joined(self, spread, seeds, observed, *, cancelled=None):
         """Return what `spread` found as `Colored`, with what photos saw where the settings ask for that.
 
         Parameters
@@ -178,9 +179,12 @@ class Colorizer:
         seeds : Seeds
             On pixels with a return.
         observed : Observed or None
+        cancelled : callable, optional
 
         Raises
         ------
+        Cancelled
+            If ``cancelled()`` returned True.
         ReflcolorError
             If what photos saw is of another size than the scan.
         """
@@ -199,8 +203,13 @@ class Colorizer:
             self._seen = None
             rows, columns = self.scan.shape
             require_memory(_JOIN_BYTES * rows * columns, f"{self.scan.name}: joining what photos saw")
-            ranked = outranked(observed, seeds, self._graph, self.settings.alpha)
-            self._seen = spread, observed, ranks, joined(spread, ranked, seeds, self._graph, self.settings)
+
+            def work(control):
+                ranked = outranked(observed, seeds, self._graph, self.settings.alpha, control)
+                return joined(spread, ranked, seeds, self._graph, self.settings, control)
+
+            found = done_apart(Control(), work, lambda control: None, cancelled or (lambda: False))
+            self._seen = spread, observed, ranks, found
         colored = self._seen[-1]
         if not self._fields.limit:
             self._seen = None

@@ -1,12 +1,10 @@
 """Eq. 1 over the nearest seeds of every pixel, and how many they are where that is left to the program."""
 
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 
 from ..files.memory import require_memory
 from ..geodesic.blending import weighted_mean
-from ..geodesic.exact import awaited
+from ..geodesic.exact import done_apart
 from ..messages import Message
 from . import colorspaces
 
@@ -68,8 +66,8 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
             method["doubled_levels"] = {"p95": round(doubled, 3)}
             if doubled <= _ENOUGH_LEVELS:
                 break
-    mean, bound = _apart(
-        engine,
+    mean, bound = done_apart(
+        engine.control(),
         lambda control: found.blend(values, settings.alpha, control=control),
         lambda control: progress(1.0, "Mixing the colors"),
         cancelled,
@@ -127,19 +125,7 @@ def _found(engine, pixels, k, known, threads, progress, cancelled):
     def search(control):
         return engine.nearest(pixels, k, control, threads=threads, known=known)
 
-    return _apart(engine, search, tell, cancelled)
-
-
-def _apart(engine, work, tell, cancelled):
-    """Return ``work(control)``, done by a thread; this one asks whether to go on, and tells how far it is."""
-    control = engine.control()
-    with ThreadPoolExecutor(1, "reflcolor") as pool:
-        later = pool.submit(work, control)
-        try:
-            return awaited(later, control, lambda: tell(control), cancelled)
-        except BaseException:
-            control.cancel()
-            raise
+    return done_apart(engine.control(), search, tell, cancelled)
 
 
 def _require_memory(engine, k, shape):

@@ -55,7 +55,7 @@ class Observed:
         return Observed(self.rgb[kept], self.weight[kept], self.photo[kept])
 
 
-def outranked(observed, seeds, graph, alpha):
+def outranked(observed, seeds, graph, alpha, control=None):
     """Return the `Observed` colors without those where a person's seeds tell more.
 
     A seed that was picked or locked colors what is nearer to it, along paths, than to places all over the photos.
@@ -68,6 +68,8 @@ def outranked(observed, seeds, graph, alpha):
     graph : PixelGraph
     alpha : float
         See ``Settings``.
+    control : Control, optional
+        Can cancel the work.
     """
     picked = _pixels(seeds, seeds.of_a_person & observed.seen[seeds.rows, seeds.cols], graph)
     if not len(picked):
@@ -76,7 +78,7 @@ def outranked(observed, seeds, graph, alpha):
     pixels, own = np.concatenate([picked, places]), np.repeat([1.0, 0.0], [len(picked), len(places)])
     # Each pixel of the way costs something, or on an even wall a seed would reach as far as any.
     around = replace(graph, step_cost=_STEP)
-    shares, _ = geodesic_spread(around, pixels, own[:, None], count=_NEAREST, alpha=alpha)
+    shares, _ = geodesic_spread(around, pixels, own[:, None], count=_NEAREST, alpha=alpha, control=control)
     weight = observed.weight * (1 - shares[..., 0])
     # Its own pixel has the color that the person gave it.
     weight.reshape(-1)[picked] = 0
@@ -105,7 +107,7 @@ def inferred_only(spread):
     return Colored(spread.values, spread.reached, spread.confidence, weight, photo)
 
 
-def joined(spread, observed, seeds, graph, settings):
+def joined(spread, observed, seeds, graph, settings, control=None):
     """Return the observed values and, elsewhere, the inferred ones brought near to them.
 
     Parameters
@@ -118,13 +120,15 @@ def joined(spread, observed, seeds, graph, settings):
         On pixels with a return.
     graph : PixelGraph
     settings : Settings
+    control : Control, optional
+        Can cancel the work.
 
     Returns
     -------
     Colored
     """
     fading = _fading(observed, graph)
-    carried, arrived = _carried(spread, observed, fading, seeds, graph, settings)
+    carried, arrived = _carried(spread, observed, fading, seeds, graph, settings, control)
     values = np.empty_like(spread.values)
     # Where nothing else arrived what was seen badly is all there is.
     weight = np.where(spread.reached | arrived, fading, observed.seen).astype(np.float32)
@@ -151,7 +155,7 @@ def _fading(observed, graph):
     return observed.weight * np.minimum(distance / np.float32(margin), 1)
 
 
-def _carried(spread, observed, fading, seeds, graph, settings):
+def _carried(spread, observed, fading, seeds, graph, settings, control):
     """(H, W, C) float32: what is added to the inferred values beyond the border of what was seen; and (H, W) bool where
     something arrived."""
     import cv2
@@ -168,7 +172,7 @@ def _carried(spread, observed, fading, seeds, graph, settings):
     pixels = np.concatenate([pixels, anchors])
     differences = np.concatenate([differences, np.zeros((len(anchors), differences.shape[1]), np.float32)])
     around = replace(graph, valid=rest | border, step_cost=_STEP)
-    carried, distance = geodesic_spread(around, pixels, differences, count=_NEAREST, alpha=_ALPHA)
+    carried, distance = geodesic_spread(around, pixels, differences, count=_NEAREST, alpha=_ALPHA, control=control)
     arrived = np.isfinite(distance)
     gain = np.where(arrived, 1 / (1 + distance / np.float32(_HALF_WAY)), 0)
     # Without any seed the border is all there is.

@@ -119,3 +119,14 @@ def awaited(later, control, tell, cancelled):
         if later in wait([later], _POLL_S).done:
             return later.result()
         tell()
+
+
+def done_apart(control, work, tell, cancelled):
+    """Return ``work(control)``, done by a thread; this one asks whether to go on, and tells how far it is."""
+    with ThreadPoolExecutor(1, "reflcolor") as pool:
+        later = pool.submit(work, control)
+        try:
+            return awaited(later, control, lambda: tell(control), cancelled)
+        except BaseException:
+            control.cancel()
+            raise
