@@ -228,6 +228,9 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
+        images = [path for path in picked_files(context) if path.suffix.lower() in IMAGE_SUFFIXES]
+        if len(images) in (2, 3):
+            draw_preview(layout.box(), images, self._pair)
         layout.prop(self, "max_incidence")
         self.draw_reading(layout)
         layout.prop(self, "photos_inside")
@@ -242,9 +245,6 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             body.prop(self, name)
         for name in ("range_scale", "range_table", "color_order", "swap_images"):
             body.prop(self, name)
-        images = [path for path in picked_files(context) if path.suffix.lower() in IMAGE_SUFFIXES]
-        if len(images) in (2, 3):
-            draw_preview(body, images, self._pair)
 
 
 def draw_menu(self, _context):

@@ -31,6 +31,7 @@ def draw_preview(layout, images, pair_of):
         Makes a `Pair` of the images; may raise ReflcolorError, as `previewed` does.
     """
     column = layout.column(align=True)
+    column.label(text="Image Pair", icon="IMAGE_DATA")
     try:
         pair = pair_of(images)
         preview = _previewed(pair)

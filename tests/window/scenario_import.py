@@ -1,5 +1,8 @@
 """A scan comes in through Blender's own doors: File > Import, the search, the panel's button."""
 
+import shutil
+from pathlib import Path
+
 import bpy
 from inside.scans import shown_colors
 
@@ -72,3 +75,24 @@ def scenario_leaving_the_file_browser_changes_nothing(window):
     yield from window.key("ESC")
     yield from window.until(lambda: not browser_is_open(window), 5, "the file browser closes")
     window.equal(bpy.data.objects.keys(), objects, "objects")
+
+
+def scenario_two_images_show_what_comes_of_them(window):
+    folder = Path(window.output("pair"))
+    folder.mkdir(exist_ok=True)
+    for name in ("depth16_mm.png", "ir16.png"):
+        shutil.copy(window.data(f"k4a_mug/{name}"), folder / name)
+    yield from window.show_sidebar()
+    yield from window.click_button("reflcolor.import_scan")
+    yield from window.until(lambda: browser_is_open(window), 5, "a file browser opens")
+    yield 0.3
+    area = window.area("FILES")
+    area.spaces.active.params.directory = str(folder).encode()
+    yield 1.0
+    yield from window.move(window.place_in(area))
+    yield from window.key("A")
+    yield 0.5
+    yield from window.screenshot("two images", keep_mouse=True)
+    yield from window.key("RET")
+    yield from window.until(lambda: window.scan is not None and "ir16" in window.scan.name, 15, "the scan is imported")
+    window.equal((window.scan.reflcolor.rows, window.scan.reflcolor.cols), (576, 640), "rows and columns")
