@@ -32,7 +32,7 @@ OURS = {
 AS_IS = ("gray", "Paper", "Enhanced", *WHOLE, "Natural")
 ALONE = (*PEERS, "Yatziv", "Paper", LEVIN, "Enhanced", "Natural")
 CALIBRATION = 10
-_ROUNDS, _ROUNDS_S = 5, 8
+TIMED, _ROUNDS = ("Enhanced", "Natural"), 2
 
 
 def measure(name, count, kept=None):
@@ -74,29 +74,25 @@ def _measured(name, count):
             figures[LEVIN] = evaluate(merge(luminance, values[..., 1:], "ycbcr"), scan.color, known)
     for method, function in PEERS.items():
         figures[method] = evaluate(merge(luminance, function(scan, seeds), "ycbcr"), scan.color, known)
-    results, seconds = _timed(scan, seeds)
+    results = {method: colorize(scan, seeds, settings) for method, settings in OURS.items()}
+    seconds = _timed(scan, seeds)
     for method, settings in OURS.items():
         result = results[method]
-        figures[method] = evaluate(result.rgb, scan.color, known) | {"seconds": seconds[method]}
+        figures[method] = evaluate(result.rgb, scan.color, known) | {"seconds": seconds.get(method)}
         shown = result.rgb if settings.light else with_luminance_of(result.rgb, scan.color)
         figures[method]["confidence"] = _confidence(result.confidence, shown, scan, known)
     return {"scan": name, "seeds": len(seeds), "count": count, "figures": figures}
 
 
 def _timed(scan, seeds):
-    """Return the colorizations by preset and the seconds that each takes: the least of up to five runs by turns.
-
-    Other work on the machine disturbs; by turns it disturbs all alike.
-    """
-    results, seconds = {}, {method: [] for method in OURS}
-    rounds = 0
-    while rounds == 0 or (rounds < _ROUNDS and sum(map(sum, seconds.values())) < _ROUNDS_S):
-        for method, settings in OURS.items():
-            start = time.perf_counter()
-            results[method] = colorize(scan, seeds, settings)
-            seconds[method].append(time.perf_counter() - start)
-        rounds += 1
-    return results, {method: min(taken) for method, taken in seconds.items()}
+    """Return the processor time by preset, of all threads: the least of some runs by turns."""
+    seconds = {method: [] for method in TIMED}
+    for _ in range(_ROUNDS):
+        for method, taken in seconds.items():
+            start = time.process_time()
+            colorize(scan, seeds, OURS[method])
+            taken.append(time.process_time() - start)
+    return {method: min(taken) for method, taken in seconds.items()}
 
 
 def _confidence(confidence, rgb, scan, known):

@@ -2,7 +2,7 @@
 
 import statistics
 
-from .measure import ALONE, AS_IS, CALIBRATION, WHOLE
+from .measure import ALONE, AS_IS, CALIBRATION, TIMED, WHOLE
 from .scenes import CHOSEN_ON, COUNTS, OTHERS, PAIRS
 
 REAL = CHOSEN_ON + OTHERS + PAIRS
@@ -12,6 +12,8 @@ NATURAL_BARS, NATURAL_WORST = {500: 0.26, 100: 0.34, 30: 0.43}, 0.7
 PEER_BAR, PEER_WORST = 0.93, 1.03
 # Natural to Enhanced in color alone, and in time.
 ALONE_BAR, TIME_BAR = 1.02, 1.3
+# Shorter times vary too much from run to run.
+LEAST_S = 0.2
 # What "Enhanced" must reach against Levin's optimization in color alone, in the mean of the ratios.
 LEVIN_BAR = 0.93
 
@@ -137,24 +139,25 @@ def calibration_table(results):
 
 
 def time_table(results):
-    """Seconds of the presets."""
-    lines = [
-        "| scan | seeds | Paper, s | Enhanced, s | to Paper | Natural, s | to Enhanced |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    for result in results:
-        paper, enhanced, natural = (result["figures"][name]["seconds"] for name in ("Paper", "Enhanced", "Natural"))
-        lines.append(
-            f"| {result['scan']} | {result['seeds']} | {paper:.2f} | {enhanced:.2f} | {enhanced / paper:.2f} "
-            f"| {natural:.2f} | {natural / enhanced:.2f} |"
-        )
+    """Seconds of processor time of Enhanced and Natural, for each number of seeds."""
+    columns = " | ".join(f"{count}: Enhanced, Natural, ratio" for count in COUNTS)
+    lines = [f"| scan | {columns} |", "|---|" + "---|" * len(COUNTS)]
+    for scan in dict.fromkeys(result["scan"] for result in results):
+        cells = []
+        for count in COUNTS:
+            (found,) = (r["figures"] for r in results if (r["scan"], r["count"]) == (scan, count))
+            enhanced, natural = (found[name]["seconds"] for name in TIMED)
+            cells.append(f"{enhanced:.2f}, {natural:.2f}, {natural / enhanced:.2f}")
+        lines.append(f"| {scan} | {' | '.join(cells)} |")
     return "\n".join(lines)
 
 
 def failures(results):
     """The bars that are not met on the real scans, one line each."""
     real = [result for result in results if result["scan"] in REAL]
-    return [*_failures_of_natural(real), *_failures_of_enhanced(real)]
+    # Enhanced was never held to these bars on spinning lidars.
+    grids = [result for result in real if result["scan"] not in PAIRS]
+    return [*_failures_of_natural(real), *_failures_of_enhanced(grids)]
 
 
 def _failures_of_natural(real):
@@ -174,7 +177,7 @@ def _failures_of_natural(real):
             ("Natural to Enhanced", to_enhanced, NATURAL_WORST),
             ("Natural to the best peer", to_best_peer(figures), PEER_WORST),
             ("color alone of Natural to Enhanced", alone, ALONE_BAR),
-            ("time of Natural to Enhanced", natural["seconds"] / enhanced["seconds"], TIME_BAR),
+            ("time of Natural to Enhanced", natural["seconds"] / max(enhanced["seconds"], LEAST_S), TIME_BAR),
         ):
             if ratio > bar:
                 yield f"{place}: {what}: {ratio:.3f} is above {bar}"
