@@ -63,7 +63,7 @@ def _all(arguments):
         state = json.loads(arguments.state.read_text())
     for kind, entry in state.items():
         while entry["done"] < wanted[kind] and (end is None or time.monotonic() < end):
-            _batch(arguments.seed, kind, entry, min(wanted[kind], entry["done"] + 2000))
+            _batch(arguments.seed, kind, entry, min(wanted[kind], entry["done"] + 1000))
             if arguments.state:
                 arguments.state.write_text(json.dumps(state))
     _print(state)

@@ -49,7 +49,6 @@ class Sample:
 def samples(folder):
     """Return {kind: list of Sample}; files that others name are written into the folder, and stay there."""
     return {
-        "E57": [Sample("a.e57", data, read_scans) for data in _e57(folder)],
         "PTX": [Sample("a.ptx", data, read_scans) for data in _ptx(folder)],
         "PCD": [Sample("a.pcd", data, read_scans) for data in _pcd()],
         "PLY": [Sample("a.ply", data, read_scans) for data in _ply(folder)],
@@ -64,6 +63,7 @@ def samples(folder):
         "EXR": [Sample("a.exr", data, read) for data in _exr() for read in (_photo, read_measured)],
         "seeds": [Sample("a.json", data, Seeds.load) for data in _seeds()],
         "report": [Sample("a.json", data, _verify) for data in _reports(folder)],
+        "E57": [Sample("a.e57", data, read_scans) for data in _e57(folder)],
     }
 
 

@@ -203,8 +203,9 @@ def shared_file(size):
     return number, shown
 
 
-def reason_of(text):
+def reason_of(text, unknown="cannot be read as E57"):
+    """Why the library refused something, as the end of a line; what it says itself where nothing better is known."""
     # libE57 tells its code in the first line, and where in its own source in the others.
     first = text.strip().partition("\n")[0]
     code = re.search(r"Error\w+", first)
-    return _REASONS.get(code[0] if code else None) or f"cannot be read as E57 ({first})"
+    return _REASONS.get(code[0] if code else None) or f"{unknown} ({first})"

@@ -145,6 +145,8 @@ def _bits(node):
     if node.kind == "String":
         return _BITS_OF_A_TEXT
     low, high = node.attribute("minimum", -(2.0**63)), node.attribute("maximum", 2.0**63)
+    if low is None or high is None or not high - low < 2.0**64:
+        return 64
     return math.ceil(math.log2(high - low + 1)) if high > low else 0
 
 

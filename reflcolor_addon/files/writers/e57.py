@@ -48,16 +48,19 @@ def write_e57(scans: Scan | Iterable[Scan], path: PathLike | str) -> None:
             "{path}: cannot be written: E57 needs pye57, which is not there; write it as PTX", path=path
         ) from None
     with written_atomically(path) as temporary:
-        image = libe57.ImageFile(str(temporary), "w")
         try:
-            document = _Document(libe57, image)
-            document.write_root(scans)
-            for scan in scans:
-                document.write_scan(scan)
+            image = libe57.ImageFile(str(temporary), "w")
+            try:
+                document = _Document(libe57, image)
+                document.write_root(scans)
+                for scan in scans:
+                    document.write_scan(scan)
+            finally:
+                # Writes what is still held back, and so can fail, too.
+                image.close()
         except libe57.E57Exception as error:
-            raise OutputError("{path}: cannot be written as E57 ({error})", path=path, error=error) from error
-        finally:
-            image.close()
+            reason = str(error).strip().partition("\n")[0]
+            raise OutputError("{file}: cannot be written as E57 ({reason})", file=path, reason=reason) from error
 
 
 def _check(scan, path):

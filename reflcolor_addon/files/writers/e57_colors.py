@@ -156,7 +156,8 @@ def _follow(child, source, path, warnings, progress):
         if "done" in answer:
             return
         if isinstance(answer.get("error"), str):
-            raise OutputError("{file}: cannot be written: {reason}", file=path, reason=reason_of(answer["error"]))
+            reason = reason_of(answer["error"], unknown="see whether the disk is full")
+            raise OutputError("{file}: cannot be written: {reason}", file=path, reason=reason)
         if isinstance(answer.get("lost"), str):
             warnings.append(
                 Message(
