@@ -7,6 +7,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
+from ..reflcolor_addon.batch.memory import require_objects
 from ..reflcolor_addon.batch.paths import scan_files
 from ..reflcolor_addon.errors import ImageError, ScanError
 from ..reflcolor_addon.files.images import IMAGE_SUFFIXES
@@ -179,6 +180,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
 
         def read(path, doubts, progress, cancelled):
             scans = read_scans(path, options=reading, outside=outside, progress=progress, cancelled=cancelled)
+            require_objects(scans, path)
             inputs = [input_entry("scan", file, cancelled) for file in scan_files(path)]
             for index, scan in enumerate(scans, 1):
                 entry = scan_entry(scan, index, reading=reading)

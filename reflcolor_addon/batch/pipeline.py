@@ -18,6 +18,7 @@ from ..progress import part
 from ..seeds.scan_colors import seeds_from_color
 from ..seeds.seeds import Seeds
 from .check import check_plan
+from .memory import require_matching, require_run
 from .plan import filled
 from .read import read_jobs
 from .scan_job import require_reflectance
@@ -50,6 +51,7 @@ def run_plan(plan, session):
     jobs = read_jobs(plan, given, session, times)
     for job in jobs:
         session.warnings += job.scan.warnings
+    require_run(plan, jobs)
     if plan.colors is not None:
         _take_colors(jobs, plan)
     elif plan.from_color is not None:
@@ -165,6 +167,7 @@ def find_seeds(jobs, photos, settings, *, registered=None, progress=None, cancel
     """
     for job in jobs:
         require_reflectance(job)
+    require_matching(jobs, photos)
     matchings = match_site(
         [job.opened() for job in jobs],
         photos,

@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import Cancelled, ReflcolorError
 from ..files.memory import require_memory
 from ..geodesic.blending import left_out
-from ..geodesic.engines import engine_for
+from ..geodesic.engines import engine_class, engine_for
 from ..geodesic.exact import HeldFields, add_fields, done_apart
 from ..geodesic.graph import PixelGraph
 from ..geodesic.smoothing import smooth
@@ -62,6 +62,28 @@ class Spread(NamedTuple):
     def reached(self):
         """(H, W) bool: where a seed arrives."""
         return self.nearest_seed >= 0
+
+
+def bytes_of_colorizing(shape, seeds, settings, *, engine=None, threads=None):
+    """What colorizing a scan takes at its worst moment, in bytes, beside the scan.
+
+    Parameters
+    ----------
+    shape : (H, W)
+    seeds : int
+        How many.
+    settings : Settings
+    engine : object or class, optional
+        That which will do it; by default the one that loads here.
+    threads : int, optional
+    """
+    always, per_thread, per_nearest = (engine or engine_class()).memory
+    pixels, nearest = shape[0] * shape[1], settings.nearest
+    if nearest == "auto" and not nearest_seeds.all_are_few(seeds, pixels):
+        nearest = nearest_seeds.NUMBERS[0]
+    exact = per_thread * (threads or os.cpu_count() or 1)
+    per_pixel = always + (per_nearest * min(nearest, seeds) if isinstance(nearest, int) else exact)
+    return pixels * (per_pixel + (_KRIGING_BYTES if settings.kriging else 0))
 
 
 class Colorizer:
@@ -326,16 +348,9 @@ class Colorizer:
         self._blend, self._blended = None, []
 
     def _require_memory(self, seeds):
-        always, per_thread, per_nearest = self._engine.memory
-        nearest = self.settings.nearest
-        if nearest == "auto" and not nearest_seeds.all_are_few(seeds, self.scan.valid.size):
-            nearest = nearest_seeds.NUMBERS[0]
-        per_pixel = always + (
-            per_nearest * min(nearest, seeds) if isinstance(nearest, int) else per_thread * self.threads
-        )
-        per_pixel += _KRIGING_BYTES if self.settings.kriging else 0
         rows, columns = self.scan.shape
-        require_memory(per_pixel * rows * columns, f"{self.scan.name}: colorizing {rows} rows x {columns} columns")
+        needed = bytes_of_colorizing(self.scan.shape, seeds, self.settings, engine=self._engine, threads=self.threads)
+        require_memory(needed, f"{self.scan.name}: colorizing {rows} rows x {columns} columns")
 
     def _propagate(self, pixels, values, progress, cancelled):
         """Return the mean of eq. 1, how it was found, what lies near the seeds, and a function of another alpha.

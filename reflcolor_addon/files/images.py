@@ -63,6 +63,21 @@ def image_of(data, name, warnings=None):
     return rgb if values.dtype.kind == "f" else _in_srgb(rgb, data, name, warnings)
 
 
+def image_size(path):
+    """Return (rows, columns) of an image as its header claims them, held against the file and the memory.
+
+    Raises
+    ------
+    ImageError
+        As `read_image`, as far as it can be known.
+    """
+    data, name = _contents(path, None), Path(path).name
+    header = image_header(data, name)
+    if header is None:
+        return next(iter(exr_channels(data, name).values())).shape
+    return header.height, header.width
+
+
 def _contents(path, cancelled):
     return contents(path, EXPECTED, error=ImageError, most=_LARGEST_FILE, cancelled=cancelled)
 

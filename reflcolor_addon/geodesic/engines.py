@@ -13,7 +13,12 @@ from .blending import Blend, blend_nearest
 
 def engine_for(graph):
     """Return the engine for a PixelGraph: the kernel's where it loads."""
-    return NativeEngine(graph) if kernel.available() else ScipyEngine(graph)
+    return engine_class()(graph)
+
+
+def engine_class():
+    """Return the engine that will be taken: the kernel's where it loads."""
+    return NativeEngine if kernel.available() else ScipyEngine
 
 
 class NativeEngine:

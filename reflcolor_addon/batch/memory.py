@@ -1,0 +1,106 @@
+"""One estimate of what a whole run takes, before its work begins: matching, colors, meshes, pictures."""
+
+from pathlib import Path
+
+from ..color.colorizer import bytes_of_colorizing
+from ..errors import ReflcolorError
+from ..files.images import image_size
+from ..files.memory import available_bytes, readable
+from .plan import MESH, RENDER, SCANS, SCENE
+
+# Bytes at the worst moment of each step, beside the scans that are there; docs/reliability.md tells how they were
+# measured. Of a scan's pixel:
+_RESULT = 16
+_WRITING = {MESH: 60, SCANS: 60, SCENE: 360, RENDER: 700}
+# Photos are sought on smaller pixels, of which there are so many at most; the scan's own come beside them.
+_MATCHING, _MATCHING_MOST, _MATCHING_ALWAYS = 2400, 550e6, 130
+# Of a photo's pixel: as it stays, and while it is decoded.
+_PHOTO, _DECODING = 3, 9
+_SOME_SEEDS = 2000
+"""So many where they are still to be found."""
+
+
+def require_run(plan, jobs):
+    """Refuse a run that cannot fit into memory, when its scans are read and before anything else is done.
+
+    Parameters
+    ----------
+    plan : Plan
+    jobs : list of ScanJob
+
+    Raises
+    ------
+    ReflcolorError
+        In one line: what is needed, by which step, and what is free.
+    """
+    steps = {}
+    if plan.seeds is None and plan.from_color is None and plan.colors is None:
+        steps["finding seeds"] = bytes_of_matching(jobs, plan.photos)
+    pixels = [job.opened().valid.size for job in jobs]
+    if plan.needs_colors:
+        kept = _RESULT * sum(pixels)
+        if plan.colors is None:
+            steps["colorizing"] = kept + max(_colorizing(job, plan.settings) for job in jobs)
+        for output in plan.outputs:
+            together = max(pixels) if output.is_of_each else sum(pixels)
+            steps[f"writing {output.path.name}"] = kept + _WRITING.get(output.kind, 0) * together
+    _require(steps, ", ".join(dict.fromkeys(str(path) for path in plan.scans)))
+
+
+def require_matching(jobs, photos):
+    """The same for finding seeds alone."""
+    _require({"finding seeds": bytes_of_matching(jobs, photos)}, ", ".join(job.name for job in jobs))
+
+
+def require_objects(scans, path):
+    """The same for making objects of the scans of a file in Blender."""
+    _require({"making meshes": _WRITING[SCENE] * sum(scan.valid.size for scan in scans)}, path.name)
+
+
+def bytes_of_matching(jobs, photos):
+    """What finding seeds takes at its worst moment.
+
+    Parameters
+    ----------
+    jobs : list of ScanJob
+    photos : sequence
+        As `match_site` takes them. Photos inside an E57 are held against the memory when each is read.
+
+    Raises
+    ------
+    ImageError
+        If a photo is none.
+    """
+    sizes = [_photo_pixels(photo) for photo in photos]
+    # Scans are looked at one after the other; what is found of each is kept.
+    largest = max(job.opened().valid.size for job in jobs)
+    sought = min(_MATCHING * largest, _MATCHING_MOST) + _MATCHING_ALWAYS * largest
+    return _PHOTO * sum(sizes) + max(sought, _DECODING * max(sizes, default=0))
+
+
+def _photo_pixels(photo):
+    if isinstance(photo, str | Path):
+        height, width = (0, 0) if Path(photo).suffix.lower() == ".e57" else image_size(photo)
+        return height * width
+    pixels = photo[1] if isinstance(photo, tuple) else getattr(photo, "rgb", photo)
+    return pixels.shape[0] * pixels.shape[1]
+
+
+def _colorizing(job, settings):
+    if job.colorization is not None:
+        return 0
+    return bytes_of_colorizing(job.opened().shape, _SOME_SEEDS if job.seeds is None else len(job.seeds), settings)
+
+
+def _require(steps, what):
+    available = available_bytes()
+    step, needed = max(steps.items(), key=lambda item: item[1], default=("", 0))
+    if available is not None and needed > available:
+        raise ReflcolorError(
+            "{what}: needs about {needed} of memory for {step}, and {free} are free; read every second row and column "
+            "(step 2), or fewer scans at once",
+            what=what,
+            needed=readable(needed),
+            step=step,
+            free=readable(available),
+        )
