@@ -81,7 +81,7 @@ def bytes_of_colorizing(shape, seeds, settings, *, engine=None, threads=None):
     pixels, nearest = shape[0] * shape[1], settings.nearest
     if nearest == "auto" and not nearest_seeds.all_are_few(seeds, pixels):
         nearest = nearest_seeds.NUMBERS[0]
-    exact = per_thread * (threads or os.cpu_count() or 1)
+    exact = per_thread * (threads or thread_count())
     per_pixel = always + (per_nearest * min(nearest, seeds) if isinstance(nearest, int) else exact)
     return pixels * (per_pixel + (_KRIGING_BYTES if settings.kriging else 0))
 
