@@ -45,8 +45,6 @@ def evidence(scan, colorization):
     picture = np.full((*scan.shape, 3), UNKNOWN, np.uint8)
     picture[nearest >= 0] = INFERRED
     picture[(nearest >= 0) & guessed[nearest]] = GUESS
-    observed = colorization.values.get("observed")
-    if observed is not None:
-        picture[observed >= 0.5] = OBSERVED
+    picture[colorization.observed >= 0.5] = OBSERVED
     picture[~scan.valid] = 0
     return picture
