@@ -1,4 +1,4 @@
-"""Keep settings of the scene as presets of a person's own, the way Blender does."""
+"""Keep settings of the scene as the user's own presets, the way Blender does."""
 
 import bpy
 from bl_operators.presets import AddPresetBase

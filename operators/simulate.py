@@ -107,7 +107,9 @@ class REFLCOLOR_OT_simulate(JobOperator, bpy.types.Operator, ExportHelper):
         max=1,
         precision=4,
     )
-    seed: IntProperty(name="Seed", description="Of everything that looks like chance", default=0, min=0)
+    seed: IntProperty(
+        name="Seed", description="Start of the random numbers; the same start gives the same scan", default=0, min=0
+    )
     photos: BoolProperty(
         name="Photos", description="Take a photo from every camera of the scene but the scanner's", default=False
     )

@@ -1,4 +1,4 @@
-"""What the last operation on the scan had to say."""
+"""Results and warnings of the last operation on the scan."""
 
 import bpy
 
@@ -19,7 +19,7 @@ class REFLCOLOR_UL_notices(bpy.types.UIList):
 
 
 class Messages(Step):
-    """What the last operation on the scan had to say"""
+    """Results and warnings of the last operation on the scan"""
 
     bl_label = "Messages"
 

@@ -1,4 +1,4 @@
-"""The menus of a person's own presets, in the headers of the steps."""
+"""The menus of the user's own presets, in the headers of the steps."""
 
 import bpy
 from bl_ui.utils import PresetPanel

@@ -10,6 +10,7 @@ _MODULES = {
     "color.colorization": ("Colorization",),
     "color.colorizer": ("Colorizer", "colorize"),
     "color.evaluation": ("error_map", "evaluate"),
+    "color.observed": ("Observed",),
     "errors": (
         "Cancelled",
         "ImageError",

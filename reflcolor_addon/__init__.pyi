@@ -2,6 +2,7 @@
 from .color.colorization import Colorization
 from .color.colorizer import Colorizer, colorize
 from .color.evaluation import error_map, evaluate
+from .color.observed import Observed
 from .errors import Cancelled, ImageError, OutputError, ReflcolorError, ScanError, SeedsError, SettingsError, UsageError
 from .files.readers import ReadOptions, read_scans
 from .files.writers import write_e57, write_glb, write_image_pair, write_ply, write_ptx
@@ -19,6 +20,7 @@ __all__ = [
     "Colorizer",
     "ImageError",
     "Matching",
+    "Observed",
     "OutputError",
     "PhotoMatch",
     "ReadOptions",

@@ -28,7 +28,7 @@ from reflcolor_addon.files.images import write_png
 
 EXCEPTIONS = {name for name in reflcolor_addon.__all__ if name.endswith("Error") or name == "Cancelled"}
 # What is made by the package and only read by others.
-RESULTS = {"Colorization", "Matching", "PhotoMatch"}
+RESULTS = {"Colorization", "Matching", "Observed", "PhotoMatch"}
 EXPLAINED = sorted(set(reflcolor_addon.__all__) - EXCEPTIONS - RESULTS - {"__version__"})
 
 

@@ -17,7 +17,7 @@ GROUPS = {
     ),
     "Scans, seeds, settings": ("Scan", "Seeds", "Settings"),
     "Colors": ("colorize", "Colorizer", "Colorization", "evaluate", "error_map"),
-    "Photos": ("match_photos", "match_seeds", "match_site", "Matching", "PhotoMatch", "draw_matches"),
+    "Photos": ("match_photos", "match_seeds", "match_site", "Matching", "PhotoMatch", "Observed", "draw_matches"),
     "Distances": ("geodesic_distances",),
 }
 INTRODUCTION = """# Python

@@ -1,4 +1,4 @@
-"""What the last operation on a scan had to say: kept with its object, for the panel to list."""
+"""Results and warnings of the last operation on a scan: kept with its object, for the panel to list."""
 
 import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty

@@ -108,7 +108,9 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     matches_image: PointerProperty(
         name="Matches", description="Where each seed's color comes from", type=bpy.types.Image
     )
-    notices: CollectionProperty(name="Messages", description="What the last operation had to say", type=ReflcolorNotice)
+    notices: CollectionProperty(
+        name="Messages", description="Results and warnings of the last operation", type=ReflcolorNotice
+    )
     active_notice: IntProperty(name="Active Message", description="Message that is selected in the list")
     truth_image: PointerProperty(
         name="True Colors",

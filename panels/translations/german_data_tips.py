@@ -197,7 +197,7 @@ _IMAGES = {
     "Photos that colors are taken from": "Fotos, aus denen Farben genommen werden",
     "The photo's picture": "Das Bild des Fotos",
     "What became of the photo when it was matched": "Was aus dem Foto wurde, als es zugeordnet wurde",
-    "What the last operation had to say": "Was die letzte Handlung zu melden hatte",
+    "Results and warnings of the last operation": "Ergebnisse und Warnungen der letzten Handlung",
     "What was said": "Was gemeldet wurde",
     "Where each seed's color comes from": "Woher die Farbe jedes Saatpunkts kommt",
     "Where the line is, from the left to the right edge of the image": (
@@ -220,7 +220,9 @@ _SIMULATION = {
     ),
     "Light paths for each pixel of a photo": "Lichtwege für jedes Pixel eines Fotos",
     "Nothing is measured beyond, in metres": "Darüber hinaus wird nichts gemessen, in Metern",
-    "Of everything that looks like chance": "Für alles, was nach Zufall aussieht",
+    "Start of the random numbers; the same start gives the same scan": (
+        "Anfang der Zufallszahlen; derselbe Anfang gibt denselben Scan"
+    ),
     "Pixels from left to right": "Pixel von links nach rechts",
     "Pixels from top to bottom": "Pixel von oben nach unten",
     "Scan all around": "Rundum scannen",

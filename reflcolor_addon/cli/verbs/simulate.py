@@ -74,7 +74,7 @@ def add_arguments(parser):
         ),
         ("--beam-deg", float, default.beam_deg, "width of the laser beam, which mixes surfaces at edges"),
         ("--dropouts", float, default.dropout_rate, "share of the pixels that give no return for no reason"),
-        ("--seed", int, default.seed, "of all that looks like chance"),
+        ("--seed", int, default.seed, "start of the random numbers; the same start gives the same scan"),
     ):
         parser.add_argument(option, type=kind, default=value, metavar="N", help=f"{text} (default %(default)g)")
     parser.add_argument("--truth", action="store_true", help="write the true color of every pixel of the scan")
