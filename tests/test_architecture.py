@@ -47,6 +47,7 @@ BLENDER_ROOMS = {
     "panels": {"operators", "operators.scene", "operators.overlays", "operators.window"},
 }
 
+_BUNDLED = {"cv2", "lazy_loader", "scipy", "skimage", "pye57", "OpenEXR"}
 _ROW = re.compile(r"^\| `([\w/]+)` \| [^|]+ \| ([^|]*?) ?\|$", re.MULTILINE)
 
 
@@ -137,6 +138,17 @@ def test_the_core_never_imports_blender():
                 )
             }
             assert not names & {"bpy", "bl_ui", "bpy_extras", "mathutils", "gpu", "gpu_extras", "blf"}, module
+
+
+def test_no_module_imports_a_bundled_package_before_it_is_needed():
+    # Else nothing registers where another extension has taken the package away (bundled.py).
+    found = set()
+    for module, path in _modules().items():
+        for node in ast.parse(path.read_text("utf-8")).body:
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module or ""] if isinstance(node, ast.ImportFrom) and not node.level else []
+            found |= {(module, name) for name in names if name.split(".")[0] in _BUNDLED}
+    assert not found
 
 
 @pytest.mark.parametrize("lazy", [False, True], ids=["at import", "inside functions, too"])

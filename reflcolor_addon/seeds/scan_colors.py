@@ -1,6 +1,5 @@
 """Seeds in the colors that came with a scan."""
 
-import cv2
 import numpy as np
 
 from ..errors import SeedsError
@@ -34,6 +33,8 @@ def seeds_from_color(scan, count):
     SeedsError
         If the scan came without colors.
     """
+    import cv2
+
     known = scan.valid & scan.color.any(axis=-1) if scan.color is not None else np.zeros(scan.shape, bool)
     if not known.any():
         raise SeedsError("{scan}: it came without colors; give seeds another way", scan=scan.name)

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 
 from ..errors import Cancelled
@@ -162,6 +161,8 @@ class _Grid:
 
     def _directions(self, scan):
         """(H, W, 3) unit vectors; where there is no return, on from the nearest one by the usual step."""
+        import cv2
+
         known = scan.valid
         rays = np.where(known[..., None], scan.points / np.where(known, scan.range, 1)[..., None], 0)
         nearest = nearest_kept(known)

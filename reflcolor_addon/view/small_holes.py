@@ -1,6 +1,5 @@
 """Small holes of a scan, where single pixels gave no return, as the surface around them goes on."""
 
-import cv2
 import numpy as np
 
 _LARGEST_PIXELS = 8
@@ -20,6 +19,8 @@ def small_holes(kept, largest_pixels=_LARGEST_PIXELS):
     -------
     (H, W) bool
     """
+    import cv2
+
     count, labels, sizes, _ = cv2.connectedComponentsWithStats((~kept).astype(np.uint8), connectivity=4)
     left, top, width, height = sizes[:count, :4].T
     inside = (left > 0) & (top > 0) & (left + width < kept.shape[1]) & (top + height < kept.shape[0])
@@ -30,6 +31,8 @@ def small_holes(kept, largest_pixels=_LARGEST_PIXELS):
 
 def nearest_kept(kept):
     """Return, for every pixel, the flat index of the nearest pixel that is kept: (H, W) int."""
+    import cv2
+
     _, labels = cv2.distanceTransformWithLabels(
         (~kept).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
     )
