@@ -8,11 +8,13 @@ import sys
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from small_scans import random_scan
 
 import reflcolor_addon
 from reflcolor_addon import Seeds, __version__
+from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -43,8 +45,15 @@ def run(installed, *arguments, cwd):
 def test_the_examples_of_the_readme_run_with_the_native_kernel(installed, tmp_path):
     write_ptx(random_scan(shape=(20, 30)), tmp_path / "garage.ptx")
     Seeds([1, 15], [2, 20], [[200, 80, 40], [20, 80, 220]]).save(tmp_path / "garage.seeds.json")
+    write_png(tmp_path / "garage.png", np.random.default_rng(0).integers(0, 256, (64, 96, 3), np.uint8))
+    (tmp_path / "garage.png").rename(tmp_path / "garage.jpg")
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     (example,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
+    # Noise shows no scan, so that no photo is verified.
+    example = example.replace(
+        'match_photos(scan, ["garage.jpg"])', 'match_photos(scan, ["garage.jpg"], Settings(guess=True))'
+    )
+    assert "guess" in example
     example += "\nimport reflcolor_addon, reflcolor_kernel; print(reflcolor_addon.__file__, reflcolor_kernel.__file__)"
     example += "\nprint(result.method['engine'], result.rgb.shape, reflcolor_addon.__version__)"
     done = run(installed, "-c", example, cwd=tmp_path)
