@@ -14,6 +14,7 @@ from ..reflcolor_addon.files.images import IMAGE_SUFFIXES
 from ..reflcolor_addon.files.readers import SCAN_SUFFIXES, read_scans
 from ..reflcolor_addon.files.readers.e57_photos import photos_inside, read_photos
 from ..reflcolor_addon.files.readers.pair_description import Pair, describe_pair, table_of
+from ..reflcolor_addon.messages import Message
 from ..reflcolor_addon.report.report import input_entry, scan_entry
 from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.scan.object_arrays import object_arrays
@@ -28,6 +29,9 @@ from .scene.viewpoint import show_imported
 from .window.jobs import JobOperator
 
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
+
+_MOST_PHOTOS = 12
+"""Of a file with more photos inside, they are not put on the list unasked: each takes memory."""
 
 _SENSOR_PROPERTIES = {
     "spherical": ("azimuth_left", "azimuth_right", "elevation_bottom", "elevation_top"),
@@ -170,7 +174,16 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             for path in paths if inside else ():
                 warnings, photos = [], []
                 try:
-                    if any(photo.usable for photo in photos_inside(path)):
+                    count = sum(photo.usable for photo in photos_inside(path))
+                    if count > _MOST_PHOTOS:
+                        warnings.append(
+                            Message(
+                                "{file} holds {count} photos; Load Photo puts all of them on the list",
+                                file=path.name,
+                                count=count,
+                            )
+                        )
+                    elif count:
                         photos = read_photos(path, warnings, cancelled=cancelled)
                 except ImageError as error:
                     warnings.append(error.message)

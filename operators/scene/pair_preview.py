@@ -1,12 +1,14 @@
 """What would come of two or three images, shown in the file browser before they are imported."""
 
 import os
+import textwrap
 from pathlib import Path
 
 from ...reflcolor_addon.errors import ReflcolorError
 from ...reflcolor_addon.files.readers.pair_description import previewed
 from .texts import shown
 
+_LETTERS = 34
 # The last preview: drawing asks for it again and again.
 _made = {}
 
@@ -36,16 +38,18 @@ def draw_preview(layout, images, pair_of):
         pair = pair_of(images)
         preview = _previewed(pair)
     except (ReflcolorError, OSError) as error:
-        column.label(
-            text=shown(error.message) if isinstance(error, ReflcolorError) else str(error),
-            icon="ERROR",
-            translate=False,
-        )
+        _draw(column, shown(error.message) if isinstance(error, ReflcolorError) else str(error), "ERROR")
         return
     for line in preview.said:
-        column.label(text=shown(line), translate=False)
+        _draw(column, shown(line))
     for line in preview.doubts:
-        column.label(text=shown(line), icon="ERROR", translate=False)
+        _draw(column, shown(line), "ERROR")
+
+
+def _draw(column, text, icon="NONE"):
+    """A text in as many lines as the side of a file browser needs; Blender would leave out the middle."""
+    for number, line in enumerate(textwrap.wrap(text, _LETTERS)):
+        column.label(text=line, icon=icon if number == 0 else "NONE" if icon == "NONE" else "BLANK1", translate=False)
 
 
 def _previewed(pair):

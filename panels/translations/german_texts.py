@@ -116,6 +116,9 @@ _REPORTS = {
     "Found seeds for {count} scans: {counts}": "Saatpunkte für {count} Scans gefunden: {counts}",
     "Found {count} seeds for {name}": "{count} Saatpunkte für {name} gefunden",
     "Imported {name}": "{name} importiert",
+    "{file} holds {count} photos; Load Photo puts all of them on the list": (
+        "{file} enthält {count} Fotos; Foto laden setzt sie alle auf die Liste"
+    ),
     "Photos inside {name}, now on the list of photos: {count}": (
         "Fotos in {name}, jetzt auf der Liste der Fotos: {count}"
     ),

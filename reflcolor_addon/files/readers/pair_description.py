@@ -130,12 +130,8 @@ def previewed(pair):
         scale = _guessed_scale(values, there) if pair.range_scale is None else pair.range_scale
         content["range_scale"] = _as_typed(scale)
     said = [
-        Message(
-            "{range}: range, {bits} bits; {reflectance}: reflectance",
-            range=range_image.name,
-            bits=8 * values.dtype.itemsize,
-            reflectance=reflectance_image.name,
-        ),
+        Message("range: {image}, {bits} bits", image=range_image.name, bits=8 * values.dtype.itemsize),
+        Message("reflectance: {image}", image=reflectance_image.name),
         _sensor_said(model),
     ]
     size, doubts = _looked_at(content, values, there)
@@ -260,15 +256,11 @@ def _looked_at(content, values, there):
     seen = seen if len(seen) else points[there]
     away = np.sqrt((seen**2).sum(axis=-1))
     width, depth, height = np.ptp(seen, axis=0)
-    size = Message(
-        "mesh: {width:.2f} x {depth:.2f} x {height:.2f} m, {near:.2f} to {far:.2f} m away",
-        width=width,
-        depth=depth,
-        height=height,
-        near=away.min(),
-        far=away.max(),
-    )
-    return [size], _doubts(content["model"], distance, there, float(np.median(away)))
+    size = [
+        Message("mesh: {width:.2f} x {depth:.2f} x {height:.2f} m", width=width, depth=depth, height=height),
+        Message("{near:.2f} to {far:.2f} m away", near=away.min(), far=away.max()),
+    ]
+    return size, _doubts(content["model"], distance, there, float(np.median(away)))
 
 
 def _doubts(model, distance, there, usual):
