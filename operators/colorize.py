@@ -11,13 +11,13 @@ from .scene.photo_colors import observed_reader
 from .scene.provenance import record_provenance, window_report
 from .scene.scan_object import grid_indices, scan_reader
 from .scene.seed_list import seeds_of
-from .scene.setting_properties import COLORIZE_NAMES, ColorizeSettings, core_settings
+from .scene.setting_properties import COLORIZE_NAMES, ColorizeArguments, core_settings, keep_used_settings
 from .scene.texts import told
 from .window import live_update
 from .window.jobs import JobOperator
 
 
-class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
+class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
     """Spread the colors of each selected scan's seeds over all of it, along paths of like reflectance and range"""
 
     bl_idname = "reflcolor.colorize"
@@ -31,7 +31,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
 
     def prepare(self, context):
         scans, self._left_out = polls.fitting_scans(context, polls.not_colorable)
-        self._settings = core_settings(self, context.scene.reflcolor, COLORIZE_NAMES)
+        self._settings = core_settings(self, context.scene, COLORIZE_NAMES)
         # Jobs hold names, not objects: those may be gone, or be others after an undo, when the work is done.
         jobs = [_job(obj, self._settings) for obj in scans]
 
@@ -42,6 +42,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeSettings, bpy.types.Operator):
         return work
 
     def finish(self, context, jobs):
+        keep_used_settings(self, context.scene, COLORIZE_NAMES)
         done = []
         for job in jobs:
             obj = bpy.data.objects.get(job.name)

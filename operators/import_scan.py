@@ -26,6 +26,7 @@ from .scene.reading_properties import ReadingProperties
 from .scene.scan_object import add_scan_object
 from .scene.texts import told
 from .scene.viewpoint import show_imported
+from .window.folders import open_in, was_picked
 from .window.jobs import JobOperator
 
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
@@ -141,9 +142,11 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         # Given by a drop or a script; what was picked the last time does not count as given.
         if self.properties.is_property_set("filepath"):
             return self.start(context)
+        open_in(self)
         return self.browse(ImportHelper, context, event)
 
     def prepare(self, context):
+        was_picked(self)
         paths = [Path(self.directory, file.name) for file in self.files if file.name] or [Path(self.filepath)]
         pair = [path for path in paths if path.suffix.lower() in IMAGE_SUFFIXES]
         picked = self._pair(pair)

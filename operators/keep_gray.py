@@ -2,9 +2,9 @@
 
 import bpy
 
-from .pick_color import give_color
 from .scene import polls
 from .scene.editors import redraw_editors, select_only
+from .scene.seed_colors import give_color
 from .scene.seed_list import selected_seeds
 
 NEUTRAL = (0.5, 0.5, 0.5)

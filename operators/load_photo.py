@@ -8,10 +8,12 @@ from bpy.props import BoolProperty, CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..reflcolor_addon.files.photo_files import PHOTO_SUFFIXES, photos_of
+from .scene import polls
 from .scene.image_sides import show_image
 from .scene.photos import add_photos
 from .scene.reports import reported
 from .scene.texts import shown, told
+from .window.folders import open_in, was_picked
 
 
 class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
@@ -35,10 +37,12 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
         # Given by a drop or a script; what was picked the last time does not count as given.
         if self.properties.is_property_set("filepath"):
             return self.execute(context)
+        open_in(self, _scan_folder(context))
         return ImportHelper.invoke(self, context, event)
 
     @reported
     def execute(self, context):
+        was_picked(self)
         names = [file.name for file in self.files if file.name]
         for path in [Path(self.directory, name) for name in names] or [Path(self.filepath)]:
             warnings = []
@@ -54,6 +58,12 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
                 self.report({"INFO"}, said)
         show_image(context, image)
         return {"FINISHED"}
+
+
+def _scan_folder(context):
+    """The folder of the scan's file, where its photos often are; None where there is no scan."""
+    obj = polls.scan_object(context)
+    return Path(obj.reflcolor.source).parent if obj is not None and obj.reflcolor.source else None
 
 
 classes = (REFLCOLOR_OT_load_photo,)

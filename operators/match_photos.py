@@ -10,16 +10,18 @@ from .scene import polls
 from .scene.images import write_image
 from .scene.notices import tell, tell_together
 from .scene.photo_colors import keep_cameras, keep_observed
+from .scene.photo_list import listed_images
 from .scene.photos import photo_of
 from .scene.provenance import record_matching
 from .scene.scan_object import SHIFT, own_image, scan_reader
 from .scene.seed_list import append_seeds, remove_seeds, seeds_of
-from .scene.setting_properties import MATCH_NAMES, MatchSettings, core_settings
+from .scene.setting_properties import MATCH_NAMES, MatchArguments, core_settings, keep_used_settings
 from .scene.texts import told
+from .scene.verdicts import keep_verdicts
 from .window.jobs import JobOperator
 
 
-class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
+class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator):
     """Find seeds of the selected scans in the photos; hand-picked and locked ones stay, four to six pairs help"""
 
     bl_idname = "reflcolor.match_photos"
@@ -33,12 +35,14 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
 
     def prepare(self, context):
         objects, self._left_out = polls.fitting_scans(context, polls.foreign_seeds)
-        listed = context.scene.reflcolor.photos
+        images = listed_images(context.scene)
+        # A person may rename a photo while the work goes on.
+        self._photos = {image.name: image.session_uid for image in images}
         shift = context.scene.get(SHIFT, (0.0, 0.0, 0.0))
-        photos = [photo_of(photo.image, shift) for photo in listed if photo.image is not None]
+        photos = [photo_of(image, shift) for image in images]
         if None in photos:
             raise SeedsError("a photo of the list cannot be read; remove it and load it again")
-        settings = self._settings = core_settings(self, context.scene.reflcolor, MATCH_NAMES)
+        settings = self._settings = core_settings(self, context.scene, MATCH_NAMES)
         jobs = [
             ScanJob(
                 name=obj.name,
@@ -56,7 +60,10 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         return work
 
     def finish(self, context, results):
+        keep_used_settings(self, context.scene, MATCH_NAMES)
         done = []
+        images = {image.session_uid: image for image in bpy.data.images}
+        images = {name: images.get(uid) for name, uid in self._photos.items()}
         for job, picture in results:
             obj = bpy.data.objects.get(job.name)
             if obj is None or not obj.reflcolor.rows:
@@ -65,18 +72,15 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
             # Raises where the mesh cannot take them, before any seed is changed.
             keep_observed(obj, job.observed)
             keep_cameras(obj, job.matching.photos)
-            take_over_seeds(obj, job.seeds)
+            take_over_seeds(obj, job.seeds, images)
+            found = [(images[photo.name], photo) for photo in job.matching.photos if images.get(photo.name)]
+            keep_verdicts(obj, found)
             record_matching(obj, job.matching, self._settings, MATCH_NAMES)
             obj.reflcolor.matches_image = write_image(
                 own_image(obj, "matches_image"), f"{obj.name} Matches", picture, is_data=False
             )
             self._tell(obj, job.matching, one_of_several=len(results) > 1)
             done.append((obj, job.matching))
-        matches = [(obj.name, {photo.name: photo for photo in matching.photos}) for obj, matching in done]
-        for photo in context.scene.reflcolor.photos:
-            if photo.image is not None:
-                name = photo.image.name
-                note_photo(photo, [(scan, photos[name]) for scan, photos in matches if name in photos])
         counts = ", ".join(f"{obj.name} ({len(matching.seeds)})" for obj, matching in done)
         together = told("Found seeds for {count} scans: {counts}", count=len(done), counts=counts)
         tell_together(self, [obj for obj, _ in done], together, self._left_out)
@@ -87,8 +91,11 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchSettings, bpy.types.Operator):
         tell(self, obj, said, matching.warnings, details=details, one_of_several=one_of_several)
 
 
-def take_over_seeds(obj, seeds):
-    """Put the seeds that were found in place of those found before; those picked by hand and locked ones stay."""
+def take_over_seeds(obj, seeds, images=None):
+    """Put the seeds that were found in place of those found before; those picked by hand and locked ones stay.
+
+    ``images``, a dict, tells the photos that the seeds name; else they are found by name.
+    """
     replaced = [i for i, seed in enumerate(obj.reflcolor.seeds) if seed.reason != "hand" and not seed.locked]
     remove_seeds(obj, replaced)
     locked = {(seed.row, seed.col) for seed in obj.reflcolor.seeds if seed.locked}
@@ -98,20 +105,7 @@ def take_over_seeds(obj, seeds):
         for index, (place, reason) in enumerate(zip(places, seeds.reason, strict=True))
         if reason != "hand" and place not in locked
     ]
-    append_seeds(obj, seeds.chosen(found))
-
-
-def note_photo(photo, matches):
-    """Note what became of a photo of the list; ``matches`` holds a scan's name and a PhotoMatch for each scan.
-
-    It is verified if it is on any scan. Where there are several, all are named, first those where it is.
-    """
-    if not matches:
-        return
-    matches = sorted(matches, key=lambda match: not match[1].verified)
-    photo.verified = matches[0][1].verified
-    notes = [f"{scan}: {found.note}" for scan, found in matches]
-    photo.note = "; ".join(notes) if len(notes) > 1 else matches[0][1].note
+    append_seeds(obj, seeds.chosen(found), images)
 
 
 classes = (REFLCOLOR_OT_match_photos,)

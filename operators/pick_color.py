@@ -7,10 +7,9 @@ from ..reflcolor_addon.errors import SeedsError
 from .scene import polls
 from .scene.editors import select_only
 from .scene.images import read_pixel
-from .scene.photos import list_photo
-from .scene.quiet import point_to, write_quietly
+from .scene.photo_list import list_photo
 from .scene.reports import reported
-from .scene.seed_arrays import FOUND_BY
+from .scene.seed_colors import give_color, hold_color
 from .scene.seed_list import selected_seeds
 from .scene.texts import NO_COLOR
 from .window.live_update import redraw_seeds
@@ -49,19 +48,11 @@ class REFLCOLOR_OT_pick_color(bpy.types.Operator):
         if selected:
             select_only(obj.reflcolor.seeds, [])
         else:
-            settings.picked_color = color
-            settings.picked_photo, settings.picked_xy = (None if self.sample_only else image), self.photo_xy
+            hold_color(settings, color, None if self.sample_only else image, self.photo_xy)
         if not self.sample_only:
-            list_photo(context, image)
+            list_photo(context.scene, image)
         redraw_seeds(obj)
         return {"FINISHED"}
-
-
-def give_color(seed, color, photo, photo_xy):
-    """Color a seed by a person's choice, with the point of the photo that it is from if there is one."""
-    write_quietly(seed, color=tuple(color), photo_xy=tuple(photo_xy), has_color=True)
-    write_quietly(seed, reason=FOUND_BY.index("hand"), confidence=1.0)
-    point_to(seed, photo=photo)
 
 
 classes = (REFLCOLOR_OT_pick_color,)

@@ -1,12 +1,9 @@
 """Read a message of the list in full."""
 
-import textwrap
-
 import bpy
 
+from .scene.paragraphs import POPUP_WIDTH, draw_paragraph
 from .show_notice import NoticeChoice
-
-_WIDTH, _LETTERS = 480, 76
 
 
 class REFLCOLOR_OT_read_notice(NoticeChoice, bpy.types.Operator):
@@ -17,7 +14,7 @@ class REFLCOLOR_OT_read_notice(NoticeChoice, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     def invoke(self, context, _event):
-        return context.window_manager.invoke_popup(self, width=_WIDTH)
+        return context.window_manager.invoke_popup(self, width=POPUP_WIDTH)
 
     def execute(self, context):
         self.report({"INFO"}, self.notice(context).text)
@@ -25,10 +22,7 @@ class REFLCOLOR_OT_read_notice(NoticeChoice, bpy.types.Operator):
 
     def draw(self, context):
         notice = self.notice(context)
-        column = self.layout.column(align=True)
-        for number, line in enumerate(textwrap.wrap(notice.text, _LETTERS)):
-            icon = "BLANK1" if number else "ERROR" if notice.warning else "INFO"
-            column.label(text=line, icon=icon, translate=False)
+        draw_paragraph(self.layout, notice.text, "ERROR" if notice.warning else "INFO")
         row = self.layout.row()
         row.operator("reflcolor.copy_notice", icon="COPYDOWN").index = self.index
         if notice.row >= 0:

@@ -3,6 +3,7 @@
 import bpy
 
 from .scene import polls
+from .scene.photo_list import photo_settings
 
 
 class REFLCOLOR_OT_remove_photo(bpy.types.Operator):
@@ -17,7 +18,7 @@ class REFLCOLOR_OT_remove_photo(bpy.types.Operator):
         return polls.has_photos(cls, context)
 
     def execute(self, context):
-        settings = context.scene.reflcolor
+        settings = photo_settings(context.scene)
         settings.photos.remove(min(settings.active_photo, len(settings.photos) - 1))
         settings.active_photo = max(0, min(settings.active_photo, len(settings.photos) - 1))
         return {"FINISHED"}

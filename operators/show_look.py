@@ -7,6 +7,7 @@ from .scene import polls
 from .scene.looks import LOOKS, show_look, why_not
 from .scene.reports import reported
 from .scene.texts import tip
+from .window import live_update
 
 
 class REFLCOLOR_OT_show_look(bpy.types.Operator):
@@ -38,7 +39,9 @@ class REFLCOLOR_OT_show_look(bpy.types.Operator):
 
     @reported
     def execute(self, context):
-        show_look(polls.scan_object(context), self.look)
+        obj = polls.scan_object(context)
+        show_look(obj, self.look)
+        live_update.look_was_chosen(obj, self.look)
         return {"FINISHED"}
 
 

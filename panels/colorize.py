@@ -1,12 +1,12 @@
 """Step 4: colorize, and step 5: compare with the truth."""
 
 from ..operators.scene import polls
-from ..operators.scene.setting_properties import COLORIZE_NAMES
+from ..operators.scene.setting_properties import COLORIZE_NAMES, active_preset
 from ..operators.scene.texts import label
-from ..operators.window import jobs, live_update
+from ..operators.window import live_update
 from ..reflcolor_addon.settings import PRESETS
 from .presets import REFLCOLOR_PT_colorize_presets
-from .step import Step, draw_selected, in_both_editors, in_view
+from .step import Step, draw_act, draw_selected, in_both_editors, in_view
 
 # What is shown at once; all other settings are under Advanced.
 _FIRST = ("light", "alpha", "beta", "tone")
@@ -22,19 +22,13 @@ class Colorize(Step):
 
     def draw_step(self, context, layout, obj):
         settings = context.scene.reflcolor
-        row = layout.row(align=True)
+        row, active = layout.row(align=True), active_preset(settings)
         for preset in PRESETS:
-            row.operator("reflcolor.apply_preset", text=label(preset), translate=False).preset = preset
+            shown = preset == active
+            row.operator("reflcolor.apply_preset", text=label(preset), translate=False, depress=shown).preset = preset
         column = layout.column()
         for name in _FIRST:
             column.prop(settings, name)
-        job = jobs.running()
-        if job is not None:
-            layout.progress(
-                factor=job.fraction, text=label("Cancelling" if job.stopping else job.name), translate=False
-            )
-            layout.label(text="Press ESC to cancel", icon="CANCEL")
-            return
         row = layout.row()
         # Split, a button would have its text beside it.
         row.use_property_split = False
@@ -44,8 +38,8 @@ class Colorize(Step):
         draw_selected(context, layout)
         row = layout.row()
         row.scale_y = 1.5
-        row.operator("reflcolor.colorize", icon="COLOR")
-        layout.operator("reflcolor.make_texture", icon="TEXTURE")
+        draw_act(row, "reflcolor.colorize", "Colorize", icon="COLOR")
+        draw_act(layout, "reflcolor.make_texture", "Make Texture", icon="TEXTURE")
         column = layout.column()
         column.row().prop(settings, "picture_look", expand=True)
         column.prop(settings, "picture_filled")
@@ -53,7 +47,7 @@ class Colorize(Step):
         row.active = settings.picture_filled
         row.prop(settings, "picture_drop_mixed")
         row = layout.row(align=True)
-        row.operator("reflcolor.set_up_render", icon="OUTLINER_OB_CAMERA")
+        draw_act(row, "reflcolor.set_up_render", "Set Up Render", icon="OUTLINER_OB_CAMERA")
         row.operator("render.render", text="Render", icon="RENDER_STILL")
         if obj is None:
             layout.label(text="Needs a scan", icon="INFO")

@@ -1,6 +1,9 @@
 """Before and after, in the Image Editor's sidebar."""
 
+import bpy
+
 from ..operators.overlays.wipe import overlay_image
+from ..operators.scene.image_sides import scan_of_image
 from .step import Step, in_images
 
 
@@ -22,4 +25,12 @@ class Compare(Step):
         row.prop(wipe, "position", slider=True)
 
 
+def draw_in_header(self, context):
+    """The switch in the Image Editor's own header, while it shows an image of a scan that has colors."""
+    obj = scan_of_image(context.space_data.image, context)
+    if obj is not None and overlay_image(obj) is not None:
+        self.layout.prop(context.window_manager.reflcolor_wipe, "show", toggle=True, icon="ARROW_LEFTRIGHT")
+
+
 classes = (in_images(Compare),)
+menus = ((bpy.types.IMAGE_HT_header, draw_in_header),)

@@ -2,6 +2,10 @@
 
 import bpy
 
+from ..operators.scene import polls
+from ..operators.scene.photo_list import active_image, photo_settings
+from ..operators.scene.texts import label
+from ..operators.scene.verdicts import verdict_of
 from ..operators.window import seed_picking
 from .step import Step, in_both_editors
 
@@ -9,11 +13,13 @@ from .step import Step, in_both_editors
 class REFLCOLOR_UL_photos(bpy.types.UIList):
     """Photos that colors are taken from, with what became of them"""
 
-    def draw_item(self, _context, layout, _data, photo, _icon, _active_data, _active_property):
+    def draw_item(self, context, layout, _data, photo, _icon, _active_data, _active_property):
         if photo.image is None:
             layout.label(text="Deleted image", icon="ERROR")
             return
-        layout.label(text=photo.image.name, icon="IMAGE_DATA", translate=False)
+        verdict = verdict_of(polls.scan_object(context), photo.image)
+        icon = "IMAGE_DATA" if verdict is None else "CHECKMARK" if verdict.verified else "ERROR"
+        layout.label(text=photo.image.name, icon=icon, translate=False)
 
 
 class Images(Step):
@@ -22,7 +28,7 @@ class Images(Step):
     bl_label = "2. Images"
 
     def draw_step(self, context, layout, obj):
-        settings = context.scene.reflcolor
+        settings = photo_settings(context.scene)
         if seed_picking.is_open(context):
             layout.operator("reflcolor.close_seed_picking", icon="LOOP_BACK")
         else:
@@ -33,8 +39,12 @@ class Images(Step):
         buttons = row.column(align=True)
         buttons.operator("reflcolor.load_photo", text="", icon="ADD")
         buttons.operator("reflcolor.remove_photo", text="", icon="REMOVE")
-        if settings.active_photo < len(settings.photos) and settings.photos[settings.active_photo].note:
-            layout.label(text=settings.photos[settings.active_photo].note, icon="INFO", translate=False)
+        verdict = verdict_of(obj, active_image(context.scene))
+        if verdict is not None:
+            row = layout.row(align=True)
+            said = label("Verified on this scan") if verdict.verified else label("Not found on this scan")
+            row.label(text=said, icon="CHECKMARK" if verdict.verified else "ERROR", translate=False)
+            row.operator("reflcolor.read_verdict", text="", icon="FULLSCREEN_ENTER", emboss=False)
         elif not settings.photos:
             layout.operator("reflcolor.load_photo", icon="FILE_IMAGE")
 

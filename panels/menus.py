@@ -6,13 +6,13 @@ from ..operators.scene import polls
 
 # By theme, with a line between; what needs a place or a stroke of the mouse is in the tools instead.
 ACTS = (
-    ("import_scan", "open_seed_picking", "close_seed_picking", "open_reflectance"),
-    ("load_photo", "remove_photo", "match_photos"),
-    ("add_seed", "move_seed", "keep_gray", "lock_seeds", "select_all_seeds"),
+    ("import_scan", "open_example", "open_seed_picking", "close_seed_picking", "open_reflectance"),
+    ("load_photo", "remove_photo", "match_photos", "seeds_from_color"),
+    ("take_seed_tool", "add_seed", "move_seed", "keep_gray", "lock_seeds", "select_all_seeds"),
     ("remove_seed", "delete_seeds", "clear_seeds"),
     ("load_seeds", "save_seeds"),
     ("colorize", "make_texture", "evaluate", "leave_preview", "set_up_render"),
-    ("read_notice", "copy_provenance"),
+    ("read_notice", "read_verdict", "copy_provenance"),
     ("export_scan", "simulate"),
 )
 

@@ -1,9 +1,9 @@
 """Step 1: the scan."""
 
 from ..operators.scene import packages
-from ..operators.scene.scan_object import GUESSED
+from ..operators.scene.scan_object import GUESSED, is_joined
 from ..operators.scene.texts import label
-from .step import Step, in_view
+from .step import Step, draw_act, in_view
 
 
 class Scan(Step):
@@ -17,15 +17,19 @@ class Scan(Step):
             column.alert = True
             column.label(text=label("{names} missing", names=", ".join(missing)), icon="ERROR", translate=False)
             column.operator("reflcolor.repair", icon="FILE_REFRESH")
-        layout.operator("reflcolor.import_scan", icon="IMPORT")
+        draw_act(layout, "reflcolor.import_scan", "Import Laser Scan", icon="IMPORT")
         if obj is None:
             layout.label(text="Import a scan, or select one", icon="INFO")
+            layout.operator("reflcolor.open_example", icon="FILE_3D")
             return
         column = layout.column(align=True)
         column.label(text=obj.name, icon="MESH_GRID", translate=False)
         rows, cols, returns = obj.reflcolor.rows, obj.reflcolor.cols, len(obj.data.vertices)
-        said = label("{rows} x {cols} pixels, {returns} returns", rows=rows, cols=cols, returns=returns)
+        said = label("{cols} x {rows} pixels, {returns} returns", rows=rows, cols=cols, returns=returns)
         column.label(text=said, translate=False)
+        if is_joined(obj):
+            column.label(text="Another mesh was joined to it", icon="ERROR")
+            column.label(text="Renders keep each one's colors", icon="BLANK1")
         if obj.get(GUESSED):
             row = column.row()
             row.alert = True

@@ -2,27 +2,27 @@
 
 import bpy
 
+from ..operators.scene.scan_object import SCANNED
 from ..operators.scene.texts import label
+from ..operators.window.tools import draw_color
 from .presets import REFLCOLOR_PT_match_presets
-from .step import Step, draw_selected, in_both_editors
+from .step import Step, draw_act, draw_selected, in_both_editors
 
 # Of the list's width.
 _COLOR_SHARE = 0.22
-# In units of the interface: confidence and lock.
-_FACTS_WIDTH = 2.6
+# In units of the interface: how sure a color is, and the lock beside it.
+_FACTS_WIDTH, _LOCK_WIDTH = 2.6, 0.8
 
 
 class REFLCOLOR_UL_seeds(bpy.types.UIList):
-    """Seeds of a scan: color, number, row and column"""
+    """Seeds of a scan: color, number, how sure the color is, lock"""
 
     def draw_item(self, _context, layout, _data, seed, _icon, _active_data, _active_property, index):
         split = layout.split(factor=_COLOR_SHARE)
-        if seed.has_color:
-            split.prop(seed, "color", text="")
-        else:
-            split.label(text="", icon="QUESTION")
+        swatch = split.row(align=True)
+        swatch.prop(seed, "color", text="")
         row = split.row(align=True)
-        row.label(text=f"{index + 1}:  {seed.row}, {seed.col}", translate=False)
+        row.label(text=f"{index + 1}", icon="NONE" if seed.has_color else "QUESTION", translate=False)
         facts = row.row(align=True)
         facts.ui_units_x = _FACTS_WIDTH
         facts.alignment = "RIGHT"
@@ -47,14 +47,25 @@ class Seeds(Step):
         column = row.column(align=True)
         heads = column.split(factor=_COLOR_SHARE)
         heads.label(text="Color")
-        heads.label(text="Row, Column")
+        heads = heads.row(align=True)
+        heads.label(text="Seed")
+        sure = heads.row(align=True)
+        sure.ui_units_x = _FACTS_WIDTH + _LOCK_WIDTH
+        sure.label(text="Sure")
         column.template_list("REFLCOLOR_UL_seeds", "", state, "seeds", state, "active_seed", rows=4)
         buttons = row.column(align=True)
-        buttons.operator("reflcolor.add_seed", text="", icon="ADD")
+        buttons.operator("reflcolor.take_seed_tool", text="", icon="ADD")
         buttons.operator("reflcolor.remove_seed", text="", icon="REMOVE")
         buttons.separator()
         buttons.operator("reflcolor.move_seed", text="", icon="ARROW_LEFTRIGHT")
         buttons.operator("reflcolor.clear_seeds", text="", icon="TRASH")
+        if 0 <= state.active_seed < len(state.seeds):
+            seed = state.seeds[state.active_seed]
+            told = label("Row {row}, column {col}", row=seed.row, col=seed.col)
+            layout.label(
+                text=told if seed.has_color else label("{place}: choose its color", place=told), translate=False
+            )
+        draw_color(layout, context.scene.reflcolor)
         row = layout.row(align=True)
         for which in ("all", "none", "unsure"):
             row.operator("reflcolor.select_all_seeds", text=label(which.title()), translate=False).which = which
@@ -62,6 +73,8 @@ class Seeds(Step):
         row = layout.row(align=True)
         row.operator("reflcolor.load_seeds", icon="FILE_FOLDER")
         row.operator("reflcolor.save_seeds", icon="FILE_TICK")
+        if SCANNED in obj.data.color_attributes:
+            layout.operator("reflcolor.seeds_from_color", icon="CAMERA_DATA")
 
 
 class Match(Step):
@@ -79,12 +92,12 @@ class Match(Step):
         if settings.matching == "verified":
             layout.prop(settings, "guess")
         draw_selected(context, layout)
-        layout.operator("reflcolor.match_photos", icon="VIEWZOOM")
+        draw_act(layout, "reflcolor.match_photos", "Match Photos", icon="VIEWZOOM")
         row = layout.row(align=True)
         row.operator("reflcolor.lock_seeds", icon="LOCKED")
         row.operator("reflcolor.lock_seeds", text="Unlock", icon="UNLOCKED").unlock = True
         layout.prop(settings, "show_matches")
-        if obj is not None and any(photo.note and not photo.verified for photo in settings.photos):
+        if obj is not None and any(not verdict.verified for verdict in obj.reflcolor.verdicts):
             pairs = sum(seed.reason == "hand" and seed.photo is not None for seed in obj.reflcolor.seeds)
             column = layout.column(align=True)
             column.label(text="Not recognized? Pick 4 to 6 seeds", icon="INFO")

@@ -4,6 +4,7 @@ import bpy
 
 from ..operators.scene import polls
 from ..operators.scene.texts import label
+from ..operators.window import jobs
 
 
 class Step:
@@ -17,6 +18,19 @@ class Step:
         layout.use_property_split = True
         layout.use_property_decorate = False
         self.draw_step(context, layout, polls.scan_object(context))
+
+
+def draw_act(layout, operator, name, **button):
+    """Draw the button of long work or, while it runs, how far it is: in the same place, and as high.
+
+    ``name`` is what the work is called. Returns the operator's properties, or None while the work runs.
+    """
+    job = jobs.running()
+    if job is None or job.name != name:
+        return layout.operator(operator, **button)
+    done = label("{percent:.0%} (ESC cancels)", percent=job.fraction)
+    layout.progress(factor=job.fraction, text=label("Cancelling") if job.stopping else done, translate=False)
+    return None
 
 
 def draw_selected(context, layout):

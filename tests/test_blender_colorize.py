@@ -266,7 +266,8 @@ def test_seeds_are_found_in_a_photo_and_hand_picked_ones_stay(blender):
     found = [seed for seed in state.seeds if seed.reason == "pose"]
     assert len(found) > 100 and all(seed.photo.name == "photo.jpg" for seed in found)
     assert (state.seeds[0].row, state.seeds[0].col, state.seeds[0].reason) == (10, 20, "hand")
-    assert "verified" in blender.context.scene.reflcolor.photos[0].note
+    (verdict,) = state.verdicts
+    assert verdict.verified and verdict.image.name == "photo.jpg" and "verified" in verdict.note
     assert state.matches_image.size[0] > 400
     # Again: what was found before is replaced, not added to.
     count = len(state.seeds)

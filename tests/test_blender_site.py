@@ -80,9 +80,15 @@ def everything(bpy):
             [(seed.row, seed.col, tuple(seed.color), seed.reason) for seed in obj.reflcolor.seeds],
             said(bpy, obj.name),
             obj.reflcolor.matches_image,
+            verdicts(obj),
         )
         for obj in bpy.data.objects
-    ] + [(photo.note, photo.verified) for photo in bpy.context.scene.reflcolor.photos]
+    ]
+
+
+def verdicts(obj):
+    """What was found of photos on a scan."""
+    return [(verdict.image.name, verdict.verified, verdict.note) for verdict in obj.reflcolor.verdicts]
 
 
 @pytest.fixture
@@ -328,10 +334,15 @@ def test_each_scan_has_its_own_picture_and_provenance_of_the_matches(site, match
     assert '"verified": false' in wall and '"verified": true' in floor
 
 
-def test_a_photo_is_verified_if_it_is_on_any_scan_and_its_note_names_them(site, matched):
+def test_each_scan_keeps_its_own_verdict_of_a_photo(site, matched):
     site.ops.reflcolor.match_photos()
-    (photo,) = site.context.scene.reflcolor.photos
-    assert photo.verified and photo.note == "floor: verified; wall: not"
+    wall, floor = (verdicts(site.data.objects[name]) for name in POSES)
+    assert wall == [("view.png", False, "not")] and floor == [("view.png", True, "verified")]
+    # Another match of one scan leaves the other's alone, and a new name of the image changes nothing.
+    site.data.images["view.png"].name = "yard.png"
+    select(site, "floor")
+    site.ops.reflcolor.match_photos()
+    assert verdicts(site.data.objects["wall"]) == [("yard.png", False, "not")]
 
 
 def test_matches_are_told_for_each_scan_with_warnings_that_name_it(site, matched, capfd):
@@ -354,7 +365,7 @@ def test_a_single_scan_is_matched_and_told_as_ever(site, matched, capfd):
     site.ops.reflcolor.match_photos()
     assert [scan.name for scan in matched["scans"]] == ["floor"]
     assert capfd.readouterr().out.splitlines() == ["Info: Found 2 seeds for floor"]
-    assert site.context.scene.reflcolor.photos[0].note == "verified"
+    assert verdicts(site.data.objects["floor"]) == [("view.png", True, "verified")]
     assert said(site, "wall") == before and not state(site, "wall").seeds
 
 
@@ -381,8 +392,9 @@ def test_a_photo_verified_on_one_scan_is_found_on_the_other_by_where_its_object_
     blender.data.objects["corner"].select_set(True)
     blender.ops.reflcolor.load_photo(filepath=str(tmp_path / "view.png"))
     blender.ops.reflcolor.match_photos(slic_segments=150)
-    note = blender.context.scene.reflcolor.photos[0].note
-    assert note.startswith("room: verified") and "; corner: verified" in note
+    for name in ("room", "corner"):
+        ((_, verified, _),) = verdicts(blender.data.objects[name])
+        assert verified
     found = [seed for seed in state(blender, "corner").seeds if seed.reason == "pose"]
     assert len(found) > 20
     truth = np.array([corner.color[seed.row, seed.col] for seed in found], float)

@@ -52,7 +52,10 @@ def test_stage_holds_what_the_manifest_lets_in(tmp_path):
     stage_sources(tmp_path)
     staged = {path.name for path in tmp_path.iterdir()}
     assert {"__init__.py", "LICENSE", "operators", "panels", "reflcolor_addon"} <= staged
-    assert not staged & {"tests", "tools", "kernel", "examples", "benchmarks", "requirements", ".git"}
+    assert not staged & {"tests", "tools", "kernel", "benchmarks", "requirements", ".git"}
+    example = {path.name: path.stat().st_size for path in (tmp_path / "examples").rglob("*") if path.is_file()}
+    assert set(example) == {"cones.range.png", "cones.reflectance.png", "cones.scan.json", "photo.jpg"}
+    assert sum(example.values()) < 700_000
     assert not list(tmp_path.rglob("__pycache__"))
 
 

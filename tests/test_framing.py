@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from small_scans import scan_from_ranges
 
 from benchmarks import real_scans
-from reflcolor_addon.view.framing import frame, frame_in_region, in_world
+from reflcolor_addon.view.framing import camera_in_region, frame, frame_in_region, in_world
 
 SCANNER = np.array([20.0, -5.0, 1.5])
 ASPECT = 1.6
@@ -151,3 +151,18 @@ def test_points_are_brought_to_the_world_in_doubles():
     matrix = np.array([[0, -2, 0, 5e6], [2, 0, 0, -1], [0, 0, 2, 0.25], [0, 0, 0, 1]])
     points = in_world(np.array([[1, 2, 3], [0.5, 0, 0]], np.float32), matrix)
     np.testing.assert_array_equal(points, [[4_999_996, 1, 6.25], [5_000_000, 0, 0.25]])
+
+
+@pytest.mark.parametrize("size", [(1000, 700), (600, 900), (1700, 400)])
+@pytest.mark.parametrize("covered", [0, 220])
+@pytest.mark.parametrize("aspect", [0.5, 1.0, 2.2])
+def test_a_cameras_picture_is_beside_the_sidebar(size, covered, aspect):
+    """With Blender's own formulas, as its documentation has them, for where the frame of a camera is in a region."""
+    zoom, (x, y) = camera_in_region(size, covered, aspect)
+    magnified = (zoom / 50 + np.sqrt(2)) ** 2 / 4
+    longer = magnified * max(size)
+    width, height = (longer, longer / aspect) if aspect >= 1 else (longer * aspect, longer)
+    center = size[0] / 2 - 2 * x * magnified * size[0]
+    assert center - width / 2 >= 0 and center + width / 2 <= size[0] - covered and height <= size[1] and y == 0
+    # And as large as it can be, but for what headers cover.
+    assert max(width / (size[0] - covered), height / size[1]) == pytest.approx(0.88)

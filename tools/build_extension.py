@@ -161,16 +161,21 @@ def trimmed_wheel(wheel: Path) -> Path:
 
 
 def stage_sources(stage: Path) -> None:
-    """Copy the top-level entries that the manifest lets in; what is left out below them is the builder's to decide."""
+    """Copy the entries that the manifest lets in; what is left out below them is the builder's to decide.
+
+    Of a folder with entries of its own, such as the examples, those are copied alone.
+    """
     patterns = tomllib.loads(MANIFEST.read_text(encoding="utf-8"))["build"]["paths_exclude_pattern"]
-    for pattern in patterns:
-        source = ROOT / pattern.removeprefix("!/").rstrip("/")
-        if not pattern.startswith("!/") or source.name == "wheels":
+    names = [pattern.removeprefix("!/").rstrip("/") for pattern in patterns if pattern.startswith("!/")]
+    for name in names:
+        source, target = ROOT / name, stage / name
+        if name == "wheels" or any(other.startswith(f"{name}/") for other in names):
             continue
+        target.parent.mkdir(parents=True, exist_ok=True)
         if source.is_dir():
-            shutil.copytree(source, stage / source.name, ignore=shutil.ignore_patterns("__pycache__"))
+            shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__"))
         elif source.is_file():
-            shutil.copyfile(source, stage / source.name)
+            shutil.copyfile(source, target)
 
 
 def staged_manifest(platform_name: str, wheels: list[str]) -> str:

@@ -26,7 +26,13 @@ void main()
 """
 
 # A disk for a seed picked by hand, a diamond for one found in photos; a dark and a light ring tell it from any image.
+# Editors encode as sRGB what is drawn: what is written here is linear light.
 _FRAGMENT = """
+vec3 linear_light(vec3 srgb)
+{
+  return mix(srgb / 12.92, pow((srgb + 0.055) / 1.055, vec3(2.4)), step(vec3(0.04045), srgb));
+}
+
 void main()
 {
   vec2 place = (gl_PointCoord * 2.0 - 1.0) * size;
@@ -58,7 +64,7 @@ void main()
   if (shown.a < 0.01) {
     discard;
   }
-  seen = shown;
+  seen = vec4(linear_light(shown.rgb), shown.a);
 }
 """
 

@@ -117,4 +117,4 @@ def _remember(key, pixels):
 def _memory_key(image):
     """What is another for every content that an image is likely to have had."""
     packed = image.packed_file.size if image.packed_file else None
-    return image.name_full, tuple(image.size), image.source, image.filepath, packed
+    return image.session_uid, tuple(image.size), image.source, image.filepath, packed

@@ -5,6 +5,7 @@ import numpy as np
 from ...reflcolor_addon.files.photo import Photo, Place
 from ...reflcolor_addon.report.report import input_entry
 from .images import read_pixels, remember_pixels, write_image
+from .photo_list import list_photo
 from .provenance import record_photo
 
 PLACE = "reflcolor_place"
@@ -29,19 +30,9 @@ def add_photos(context, photos, path):
         record_photo(image, entry)
         if photo.place is not None:
             image[PLACE] = [*photo.place.rotation.ravel().tolist(), *photo.place.center.tolist(), photo.place.focal_px]
-        list_photo(context, image)
+        list_photo(context.scene, image)
         images.append(image)
     return images
-
-
-def list_photo(context, image):
-    """Put an image on the scene's list of photos, where it is not yet, and select it there."""
-    settings = context.scene.reflcolor
-    listed = [photo.image for photo in settings.photos]
-    if image not in listed:
-        settings.photos.add().image = image
-        listed.append(image)
-    settings.active_photo = listed.index(image)
 
 
 def photo_of(image, shift):

@@ -2,6 +2,7 @@
 
 import bpy
 
+from .photo_list import photo_settings
 from .scan_object import COLORIZED
 from .texts import tip, told
 
@@ -67,7 +68,7 @@ def has_colors(cls, context):
 
 def has_photos(cls, context):
     """There is a photo on the list."""
-    if not context.scene.reflcolor.photos:
+    if not photo_settings(context.scene).photos:
         cls.poll_message_set(tip("Load a photo first"))
         return False
     return True

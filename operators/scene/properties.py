@@ -14,9 +14,12 @@ from bpy.props import (
 
 from ...reflcolor_addon.seeds.sources import SOURCES
 from ...reflcolor_addon.view.picture import LOOKS, Picture
+from . import polls
 from .editors import redraw_editors, select_only
 from .notices import ReflcolorNotice
+from .quiet import write_quietly
 from .render import follow_picture
+from .seed_colors import give_waiting
 from .setting_properties import ColorizeSettings, MatchSettings
 
 
@@ -68,8 +71,14 @@ class ReflcolorPhoto(bpy.types.PropertyGroup):
     """A photo that colors are taken from"""
 
     image: PointerProperty(name="Image", description="The photo's picture", type=bpy.types.Image)
-    note: StringProperty(name="Note", description="What became of the photo when it was matched")
-    verified: BoolProperty(name="Verified", description="Whether its camera was found and passed the test")
+
+
+class ReflcolorVerdict(bpy.types.PropertyGroup):
+    """Whether a photo shows the scan, as it was found when they were matched last"""
+
+    image: PointerProperty(name="Image", description="The photo's picture", type=bpy.types.Image)
+    verified: BoolProperty(name="Verified", description="Whether the photo's camera was found and confirmed")
+    note: StringProperty(name="Note", description="What was found")
 
 
 class ReflcolorScan(bpy.types.PropertyGroup):
@@ -108,6 +117,9 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     matches_image: PointerProperty(
         name="Matches", description="Where each seed's color comes from", type=bpy.types.Image
     )
+    verdicts: CollectionProperty(
+        name="Verdicts", description="What was found of each photo on this scan", type=ReflcolorVerdict
+    )
     notices: CollectionProperty(
         name="Messages", description="Results and warnings of the last operation", type=ReflcolorNotice
     )
@@ -120,9 +132,15 @@ class ReflcolorScan(bpy.types.PropertyGroup):
     )
 
 
-def _color_was_picked(settings, _context):
+def _color_was_picked(settings, context):
+    """The next seeds have this color, and the selected ones that wait for theirs are given it."""
     settings.picked = True
     settings.picked_photo = None
+    obj = polls.scan_object(context)
+    if obj is not None:
+        give_waiting(obj.reflcolor.seeds, settings.picked_color, settings.last_picked_color)
+    write_quietly(settings, last_picked_color=tuple(settings.picked_color))
+    redraw_editors()
 
 
 def _picture_was_changed(settings, _context):
@@ -142,13 +160,19 @@ class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup
     picked: BoolProperty(name="Picked", description="The next seed is given the picked color")
     picked_color: FloatVectorProperty(
         name="Picked Color",
-        description="Color that the next seeds are given; pick it in a photo",
+        description="Color of the next seeds, and of selected ones without a color; choose it, or pick it in a photo",
         subtype="COLOR_GAMMA",
         min=0,
         max=1,
         size=3,
         default=(0.5, 0.5, 0.5),
         update=_color_was_picked,
+    )
+    last_picked_color: FloatVectorProperty(
+        name="Last Picked Color",
+        description="What the picked color was before; seeds that it was given to follow while it is chosen",
+        size=3,
+        options={"HIDDEN"},
     )
     picked_photo: PointerProperty(
         name="Picked In", description="Photo that the picked color is from", type=bpy.types.Image
@@ -191,5 +215,5 @@ class ReflcolorSettings(ColorizeSettings, MatchSettings, bpy.types.PropertyGroup
     active_photo: IntProperty(name="Active Photo", description="Photo that is selected in the list")
 
 
-classes = (ReflcolorSeed, ReflcolorPhoto, ReflcolorNotice, ReflcolorScan, ReflcolorSettings)
+classes = (ReflcolorSeed, ReflcolorPhoto, ReflcolorVerdict, ReflcolorNotice, ReflcolorScan, ReflcolorSettings)
 pointers = ((bpy.types.Object, "reflcolor", ReflcolorScan), (bpy.types.Scene, "reflcolor", ReflcolorSettings))

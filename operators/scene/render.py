@@ -5,12 +5,12 @@ import math
 import bpy
 from mathutils import Vector
 
-from ...reflcolor_addon.view.framing import picture_size
+from ...reflcolor_addon.view.framing import camera_in_region, picture_size
 from .collections import PICTURE, own_collection
 from .nodes import node_tree_of
 from .picture_material import give_look
 from .shown_surface import add_surface, remove_surface, switch_surface
-from .viewpoint import view_of
+from .viewpoint import covered_by_sidebar, view_of
 
 # On objects: added for a picture; left out of pictures, which the person had not done.
 _ADDED, _LEFT_OUT = "reflcolor_for_render", "reflcolor_left_out"
@@ -79,10 +79,15 @@ def look_through_camera(context):
     views = [area for area in context.window.screen.areas if area.type == "VIEW_3D"] if context.window else []
     if not views:
         return
-    space = max(views, key=lambda area: area.width * area.height).spaces.active
+    area = max(views, key=lambda area: area.width * area.height)
+    space, region = area.spaces.active, next(region for region in area.regions if region.type == "WINDOW")
     # In Local View a view has a camera of its own.
     space.camera = context.scene.camera
-    space.region_3d.view_perspective = "CAMERA"
+    eye, shown = space.region_3d, context.scene.render
+    eye.view_perspective = "CAMERA"
+    eye.view_camera_zoom, eye.view_camera_offset = camera_in_region(
+        (region.width, region.height), covered_by_sidebar(context, area), shown.resolution_x / shown.resolution_y
+    )
     if space.local_view is not None:
         for obj in context.scene.objects:
             if _ADDED in obj:

@@ -1,5 +1,7 @@
 """A scan as an object of Blender, and back."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 from mathutils import Matrix
@@ -27,6 +29,8 @@ ERROR = "error"
 SHIFT = "reflcolor_shift"
 # On meshes: what the coordinates are measured from, metres in the scanner's frame; degrees, as in `grid_mesh`.
 CENTER, MAX_INCIDENCE = "reflcolor_center", "reflcolor_max_incidence"
+# On meshes: how many vertices the scan has.
+RETURNS = "reflcolor_returns"
 # On objects whose colors are guesses, none of them seen by a photo that was verified.
 GUESSED = "reflcolor_guessed"
 _KINDS = {np.float32: "FLOAT", np.int32: "INT"}
@@ -53,6 +57,7 @@ def add_scan_object(context, arrays):
     # Doubles: a shift of six digits does not fit into a float property.
     obj[SHIFT] = scene[SHIFT] = shift.tolist()
     mesh[CENTER], mesh[MAX_INCIDENCE] = arrays.center.tolist(), arrays.max_incidence_deg
+    mesh[RETURNS] = len(mesh.vertices)
     state = obj.reflcolor
     state.rows, state.cols = arrays.shape
     state.source = str(arrays.source or "")
@@ -75,9 +80,17 @@ def add_scan_object(context, arrays):
     return obj
 
 
-def scan_of(obj):
-    """Return the Scan that an object was made from, read back from its mesh; raises as `scan_reader`."""
-    return scan_reader(obj)()
+def scan_of(obj, *, colors=None):
+    """Return the Scan that an object was made from, read back from its mesh; raises as `scan_reader`.
+
+    ``colors`` names the color attribute that it has its colors from.
+    """
+    scan = scan_reader(obj)()
+    if colors is None:
+        return scan
+    rgb = np.zeros((*scan.shape, 3), np.uint8)
+    rgb[grid_indices(obj)] = colors_of(obj, colors)
+    return replace(scan, color=rgb)
 
 
 def scan_reader(obj):
@@ -113,13 +126,22 @@ def grid_indices(obj):
     Raises
     ------
     ScanError
-        If the attributes are gone or point outside the grid.
+        If the attributes are gone or point outside the grid, or if vertices of another mesh were joined to it.
     """
+    if is_joined(obj):
+        raise ScanError(
+            "{name}: another mesh was joined to the scan; undo that, or separate them by material", name=obj.name
+        )
     rows, cols = (values_of(obj, name, np.int32) for name in ("grid_row", "grid_col"))
     state = obj.reflcolor
     if rows.size and (rows.min() < 0 or cols.min() < 0 or rows.max() >= state.rows or cols.max() >= state.cols):
         raise ScanError("{name}: grid_row and grid_col point outside the scan; import the scan again", name=obj.name)
     return rows, cols
+
+
+def is_joined(obj):
+    """Whether another mesh was joined to a scan's."""
+    return len(obj.data.vertices) > obj.data.get(RETURNS, len(obj.data.vertices))
 
 
 def own_image(obj, name):

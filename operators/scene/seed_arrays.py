@@ -10,7 +10,7 @@ from ...reflcolor_addon.seeds.sources import SOURCES
 # The choices of a seed's ``reason``, by their numbers.
 FOUND_BY = tuple(SOURCES)
 
-# Object -> (what was read in bulk, and of how many images; the names of the photos, which cannot be).
+# Object -> (what was read in bulk, and the names of all images; the names of the photos, which cannot be).
 _photo_names = {}
 
 
@@ -76,7 +76,9 @@ def seed_arrays(obj):
     }
     key = hash((active, *(values.tobytes() for values in columns.values())))
     named = _photo_names.get(obj.name)
-    state = key, len(bpy.data.images), len(bpy.data.objects)
+    # A photo may be given another name, and another photo its name.
+    images = tuple((image.name, image.session_uid) for image in bpy.data.images)
+    state = key, hash(images), len(bpy.data.objects)
     if named is None or named[0] != state:
         named = _photo_names[obj.name] = state, np.array([seed.photo.name if seed.photo else "" for seed in seeds], str)
     return SeedArrays(**columns, photo_names=named[1], active=active, key=key)

@@ -84,8 +84,9 @@ def choose_seed(obj, index):
     select_only(obj.reflcolor.seeds, [index])
 
 
-def append_seeds(obj, seeds):
-    """Add the core's Seeds to the object; photos are found by name among the .blend's images."""
+def append_seeds(obj, seeds, images=None):
+    """Add the core's Seeds to the object; photos are found by name in ``images`` or, by default, the .blend's."""
+    images = bpy.data.images if images is None else images
     listed = obj.reflcolor.seeds
     columns = (seeds.rows, seeds.cols, seeds.rgb / 255, np.nan_to_num(seeds.photo_xy), seeds.confidence, seeds.locked)
     for row, col, rgb, xy, confidence, locked, photo, reason in zip(
@@ -102,7 +103,7 @@ def append_seeds(obj, seeds):
             confidence=1.0 if np.isnan(confidence) else confidence,
             locked=locked,
         )
-        point_to(seed, photo=bpy.data.images.get(photo) if photo else None)
+        point_to(seed, photo=images.get(photo) if photo else None)
     choose_seed(obj, len(listed) - 1)
 
 

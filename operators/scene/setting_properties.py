@@ -3,7 +3,7 @@
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from ...reflcolor_addon.settings import DEFAULT_PRESET, MATCHING, PROPAGATION, SETTINGS, Settings
+from ...reflcolor_addon.settings import DEFAULT_PRESET, MATCHING, PRESETS, PROPAGATION, SETTINGS, Settings
 
 _SUBTYPES = {"share": "FACTOR"}
 # The setting "nearest" is a number or one of two choices, which takes two properties: "blend" chooses between them.
@@ -21,8 +21,8 @@ _BLEND = {
 _NEAREST = 8
 
 
-def _property(setting, default):
-    common = {"name": setting.label, "description": setting.help}
+def _property(setting, default, options):
+    common = {"name": setting.label, "description": setting.help, "options": options}
     if setting.kind is None:
         items = tuple((choice.name, choice.label, choice.help) for choice in setting.choices)
         return EnumProperty(**common, items=items, default=setting.name_of(default))
@@ -38,13 +38,13 @@ def _property(setting, default):
     return FloatProperty(**common, default=default, subtype=_SUBTYPES.get(setting.unit, "NONE"))
 
 
-def _properties(group):
+def _properties(group, options=frozenset()):
     found, defaults = {}, Settings.preset(DEFAULT_PRESET)
     for name, setting in SETTINGS.items():
         if setting.group == group:
             if name == "nearest":
-                found["blend"] = EnumProperty(**_BLEND)
-            found[name] = _property(setting, getattr(defaults, name))
+                found["blend"] = EnumProperty(**_BLEND, options=set(options))
+            found[name] = _property(setting, getattr(defaults, name), set(options))
     return found
 
 
@@ -60,15 +60,38 @@ class MatchSettings:
     __annotations__ = _properties(MATCHING)
 
 
+class ColorizeArguments:
+    """The settings of a colorization, as properties of an operator, which forgets them when it is called anew."""
+
+    __annotations__ = _properties(PROPAGATION, {"SKIP_SAVE"})
+
+
+class MatchArguments:
+    """The settings of the search for seeds in photos, as properties of an operator, as above."""
+
+    __annotations__ = _properties(MATCHING, {"SKIP_SAVE"})
+
+
 COLORIZE_NAMES = tuple(ColorizeSettings.__annotations__)
 MATCH_NAMES = tuple(MatchSettings.__annotations__)
 
 
-def core_settings(holder, fallback, names):
-    """Return the core's Settings from properties; what is not set on the operator is taken from ``fallback``."""
-    return _settings(
-        {name: getattr(holder if holder.properties.is_property_set(name) else fallback, name) for name in names}
-    )
+def core_settings(operator, scene, names):
+    """Return the core's Settings from the properties of an operator.
+
+    What is not set there is taken over from the scene: the redo panel shows what was used.
+    """
+    for name in names:
+        if not operator.properties.is_property_set(name):
+            setattr(operator, name, getattr(scene.reflcolor, name))
+    return _settings({name: getattr(operator, name) for name in names})
+
+
+def keep_used_settings(operator, scene, names):
+    """Have the scene's settings say what an operator used, which may have been changed in its redo panel."""
+    for name in names:
+        if getattr(scene.reflcolor, name) != getattr(operator, name):
+            setattr(scene.reflcolor, name, getattr(operator, name))
 
 
 def scene_settings(scene, names):
@@ -98,6 +121,19 @@ def take_over(holder, chosen, *, unset_only=False):
     for name, value in _properties_of(chosen).items():
         if not (unset_only and holder.is_property_set(name)):
             setattr(holder, name, value)
+
+
+def active_preset(holder):
+    """Return the name of the preset whose values the properties have; None where it is none's."""
+    for name in PRESETS:
+        values = _properties_of(Settings.preset(name))
+        if all(_alike(getattr(holder, prop), value) for prop, value in values.items()):
+            return name
+    return None
+
+
+def _alike(value, other):
+    return np.float32(value) == np.float32(other) if isinstance(other, float) else value == other
 
 
 def _properties_of(chosen):

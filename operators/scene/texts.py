@@ -4,10 +4,15 @@ A text that is whole needs none of this where Blender looks it up itself: names 
 labels and buttons, and what operators report.
 """
 
+import re
+
 from bpy.app.translations import pgettext_iface, pgettext_rpt, pgettext_tip
 from bpy.app.translations import pgettext_n as n_
 
 from ...reflcolor_addon.messages import translated
+
+# "--grid angle, or Grid by Angle in the import dialog"; in other languages, too, the two are parted by a comma.
+_OPTION = re.compile(r"--[a-z][^,;]*, (?:or|oder) ")
 
 NO_COLOR = n_("photo {photo} has no color at {x:g}, {y:g}; load the photo, pick inside it")
 
@@ -28,5 +33,8 @@ def tip(template, **parts):
 
 
 def shown(line):
-    """Return a line of the core, a Message, as the window shows it."""
-    return translated(line, pgettext_rpt)
+    """Return a line of the core, a Message, as the window shows it: without the options of the command line.
+
+    Where the core names an option and, after "or", what the window has instead, the latter is left.
+    """
+    return _OPTION.sub("", translated(line, pgettext_rpt))

@@ -61,16 +61,24 @@ def look_from_scanner(context, objects, area):
     if not any(len(obj.data.vertices) for obj in objects):
         return
     space, region = area.spaces.active, next(region for region in area.regions if region.type == "WINDOW")
-    sidebar = next(region for region in area.regions if region.type == "UI")
-    covered = sidebar.width if space.show_region_ui and context.preferences.system.use_region_overlap else 0
     view = frame_in_region(
-        *_points_and_scanners(objects), size=(region.width, region.height), covered=covered, focal_mm=space.lens
+        *_points_and_scanners(objects),
+        size=(region.width, region.height),
+        covered=covered_by_sidebar(context, area),
+        focal_mm=space.lens,
     )
     eye = space.region_3d
     eye.view_perspective = "PERSP"
     eye.view_rotation = Vector(view.target - view.position).to_track_quat("-Z", "Y")
     eye.view_distance = view.distance
     eye.view_location = view.target
+
+
+def covered_by_sidebar(context, area):
+    """Return how many pixels at the right of a 3D View its sidebar lies over."""
+    sidebar = next(region for region in area.regions if region.type == "UI")
+    overlaps = area.spaces.active.show_region_ui and context.preferences.system.use_region_overlap
+    return sidebar.width if overlaps else 0
 
 
 def _points_and_scanners(objects):

@@ -13,6 +13,7 @@ from ...reflcolor_addon.view.live import LiveColorizer
 from ..scene import polls
 from ..scene.editors import redraw_editors
 from ..scene.images import put_pixels, stored_pixels
+from ..scene.looks import shown_look
 from ..scene.photo_colors import observed_key, observed_reader
 from ..scene.scan_object import own_image, scan_reader, show_like_reflectance
 from ..scene.seed_arrays import seed_arrays
@@ -71,6 +72,8 @@ _live = None
 # (screen, number of the area in it, what it colored surfaces by before)
 _switched = []
 _message = ""
+# Whether 3D Views are left alone, because a person chose there what to look at.
+_given_way = False
 
 
 def message():
@@ -93,11 +96,24 @@ def redraw_seeds(obj):
 
 def switch(on):
     """Begin to follow the seeds, or end it and show again what was there."""
+    global _given_way
+    obj = polls.scan_object(bpy.context)
+    _given_way = obj is not None and shown_look(obj) not in (None, "gray", "colorized")
     if on and not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick, first_interval=0)
     if not on:
         _end()
         redraw_editors()
+
+
+def look_was_chosen(obj, identifier):
+    """Have 3D Views show what a person chose there; that is the preview again where the result's colors were chosen."""
+    global _given_way
+    _given_way = identifier != "colorized"
+    if _given_way:
+        _switch_back()
+    elif _live is not None and _live.place == _place(obj) and obj.reflcolor.preview_image is not None:
+        _lay_on_mesh(obj)
 
 
 def _tick():
@@ -168,7 +184,7 @@ def _lay_on_mesh(obj):
         node.image = obj.reflcolor.preview_image
     if nodes.active != node:
         nodes.active = node
-    if _switched:
+    if _switched or _given_way:
         return
     for screen, index, space in _solid_views():
         if space.shading.color_type in {"VERTEX", "MATERIAL"}:
@@ -194,12 +210,16 @@ def _end():
     _take_off()
 
 
-def _take_off():
+def _switch_back():
     before = {(screen, index): color_type for screen, index, color_type in _switched}
     _switched.clear()
     for screen, index, space in _solid_views():
         if (screen.name, index) in before and space.shading.color_type == "TEXTURE":
             space.shading.color_type = before[screen.name, index]
+
+
+def _take_off():
+    _switch_back()
     for material in bpy.data.materials:
         if material.node_tree is not None and PREVIEW in material.node_tree.nodes:
             material.node_tree.nodes.remove(material.node_tree.nodes[PREVIEW])

@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..scene.photo_list import listed_images
 from ..scene.viewpoint import look_from_scanner, show_scans_alone
 
 NAME = "Seed Picking"
@@ -88,7 +89,7 @@ def _lay_out(number):
 def _fill(number, object_name):
     """Show the images and the mesh, whole, with the tools at hand."""
     obj, window = bpy.data.objects[object_name], _window(number)
-    photos = [photo.image for photo in window.scene.reflcolor.photos if photo.image is not None]
+    photos = listed_images(window.scene)
     images = [obj.reflcolor.reflectance_image, photos[-1] if photos else None]
     editors = sorted((area for area in window.screen.areas if area.type == "IMAGE_EDITOR"), key=lambda area: -area.y)
     for area, image in zip(editors, images, strict=False):

@@ -11,17 +11,32 @@ _registered = []
 def draw_settings(context, layout, _tool):
     """What the next click will do, and in which color."""
     settings = context.scene.reflcolor
-    row = layout.row(align=True)
-    if settings.picked:
-        row.label(text="Next Seed")
-        row.prop(settings, "picked_color", text="")
-        row.operator("reflcolor.drop_color", text="", icon="X")
-    else:
-        row.label(text="Click scan, then photo", icon="INFO")
+    draw_color(layout, settings)
+    if not settings.picked:
+        layout.label(text="Click scan, then photo, or choose a color", icon="INFO")
     layout.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")
     layout.operator("reflcolor.keep_gray", icon="COLORSET_13_VEC")
     layout.prop(settings, "show_matches")
     layout.prop(settings, "stroke_spacing")
+
+
+def draw_color(layout, settings):
+    """The color of the tool: it is always there, and used once it was chosen."""
+    row = layout.row(align=True)
+    row.prop(settings, "picked_color", text="Seed Color")
+    if settings.picked:
+        row.operator("reflcolor.drop_color", text="", icon="X")
+
+
+def take_tools(window):
+    """Take the tool in every editor of a window that has one."""
+    for area in window.screen.areas:
+        for tool in _registered:
+            if area.type == tool.bl_space_type:
+                region = next(region for region in area.regions if region.type == "WINDOW")
+                with bpy.context.temp_override(window=window, area=area, region=region):
+                    bpy.ops.wm.tool_set_by_id(name=tool.bl_idname, space_type=area.type)
+                area.spaces.active.show_region_tool_header = True
 
 
 def _pick(act, **modifiers):

@@ -9,9 +9,10 @@ _SEEDS = {
     "Add a seed to what is selected, or take it off": "Einen Saatpunkt zur Auswahl nehmen, oder aus ihr",
     "By likeness with what a photo shows": "Nach Ähnlichkeit mit dem, was ein Foto zeigt",
     "Color of the scan at this pixel": "Farbe des Scans an diesem Pixel",
-    "Color that the next seeds are given; pick it in a photo": (
-        "Farbe, die die nächsten Saatpunkte bekommen; sie im Foto aufnehmen"
+    "Color of the next seeds, and of selected ones without a color; choose it, or pick it in a photo": (
+        "Farbe der nächsten Saatpunkte und der ausgewählten ohne Farbe; hier wählen oder im Foto aufnehmen"
     ),
+    "How many seeds to take": "Wie viele Saatpunkte zu nehmen sind",
     "Color the scan anew whenever a seed or a setting changes, as a preview; Colorize keeps it, ESC or turning this "
     "off brings back what was there": (
         "Den Scan bei jeder Änderung eines Saatpunkts oder einer Einstellung neu färben, als Vorschau; Einfärben "
@@ -196,7 +197,8 @@ _IMAGES = {
     "Photo that is selected in the list": "Foto, das in der Liste ausgewählt ist",
     "Photos that colors are taken from": "Fotos, aus denen Farben genommen werden",
     "The photo's picture": "Das Bild des Fotos",
-    "What became of the photo when it was matched": "Was aus dem Foto wurde, als es zugeordnet wurde",
+    "What was found": "Was gefunden wurde",
+    "What was found of each photo on this scan": "Was von jedem Foto auf diesem Scan gefunden wurde",
     "Results and warnings of the last operation": "Ergebnisse und Warnungen der letzten Handlung",
     "What was said": "Was gemeldet wurde",
     "Where each seed's color comes from": "Woher die Farbe jedes Saatpunkts kommt",

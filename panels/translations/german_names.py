@@ -1,6 +1,10 @@
 """German: names of operators, panels, properties and choices."""
 
 _OPERATORS = {
+    "Open Example": "Beispiel öffnen",
+    "Place Seeds": "Saatpunkte setzen",
+    "Read Verdict": "Befund lesen",
+    "Seeds from Scan's Colors": "Saatpunkte aus Farben des Scans",
     "Add Colorize Preset": "Vorlage fürs Einfärben hinzufügen",
     "Add Match Preset": "Vorlage für die Suche hinzufügen",
     "Add Seed": "Saatpunkt hinzufügen",
@@ -80,6 +84,8 @@ _PANELS = {
 }
 
 _PROPERTIES = {
+    "Count": "Anzahl",
+    "Verdicts": "Befunde",
     "Position": "Ort",
     "Scanner Position": "Standpunkt des Scanners",
     "Grid by Angle": "Raster nach Winkeln",

@@ -2,7 +2,7 @@
 
 _PANELS = {
     "Cancelling": "Wird abgebrochen",
-    "Click scan, then photo": "Erst Scan, dann Foto anklicken",
+    "Click scan, then photo, or choose a color": "Scan, dann Foto anklicken, oder Farbe wählen",
     "Color": "Farbe",
     "Colorize first": "Erst einfärben",
     "Colors of unknown origin": "Farben unbekannter Herkunft",
@@ -29,14 +29,23 @@ _PANELS = {
         "Der Scan ist aus einer anderen Datei verknüpft; erst lokal machen oder eine Bibliotheksüberschreibung anlegen"
     ),
     "Needs seeds": "Braucht Saatpunkte",
-    "Next Seed": "Nächster Saatpunkt",
     "No seed reaches": "Von keinem erreicht",
     "None in the scan": "Nicht im Scan",
     "None: all colors are guesses": "Keine: alle Farben sind geraten",
     "Not known": "Nicht bekannt",
     "Not recognized? Pick 4 to 6 seeds": "Nicht erkannt? 4 bis 6 Saatpunkte",
-    "Press ESC to cancel": "ESC bricht ab",
-    "Row, Column": "Zeile, Spalte",
+    "Another mesh was joined to it": "Ein anderes Netz wurde damit verbunden",
+    "Renders keep each one's colors": "Renderbilder behalten die Farben von jedem",
+    "Match the photo first": "Erst das Foto zuordnen",
+    "Not found on this scan": "Auf diesem Scan nicht gefunden",
+    "Row {row}, column {col}": "Zeile {row}, Spalte {col}",
+    "Seed": "Saatpunkt",
+    "Seed Color": "Farbe der Saatpunkte",
+    "Sure": "Sicher",
+    "The scan came without colors": "Der Scan kam ohne Farben",
+    "Verified on this scan": "Auf diesem Scan bestätigt",
+    "{percent:.0%} (ESC cancels)": "{percent:.0%} (ESC bricht ab)",
+    "{place}: choose its color": "{place}: Farbe wählen",
     "Seed {number}": "Saatpunkt {number}",
     "Photo {number}": "Foto {number}",
     "Make Texture": "Textur erzeugen",
@@ -57,7 +66,7 @@ _PANELS = {
     "{count} seeds picked in a photo": "{count} Saatpunkte aus einem Foto gepickt",
     "{count} seeds with a color given by hand": "{count} Saatpunkte mit Farbe von Hand",
     "{count} scans selected": "{count} Scans ausgewählt",
-    "{rows} x {cols} pixels, {returns} returns": "{rows} x {cols} Pixel, {returns} Messungen",
+    "{cols} x {rows} pixels, {returns} returns": "{cols} x {rows} Pixel, {returns} Messungen",
     "{shown} of {count}": "{shown} von {count}",
 }
 
@@ -95,6 +104,14 @@ _MISSING = {
 }
 
 _REPORTS = {
+    "Click on the scan to place a seed": "Auf den Scan klicken, um einen Saatpunkt zu setzen",
+    "Took {count} seeds from the colors of {name}": "{count} Saatpunkte aus den Farben von {name} genommen",
+    "{name}: another mesh was joined to the scan; undo that, or separate them by material": (
+        "{name}: ein anderes Netz wurde mit dem Scan verbunden; das rückgängig machen oder sie nach Material trennen"
+    ),
+    "the example is not there: {path}; install the extension again": (
+        "das Beispiel ist nicht da: {path}; die Erweiterung neu installieren"
+    ),
     "Writing {name}": "{name} wird geschrieben",
     "{file}: cannot be written ({reason})": "{file}: nicht zu schreiben ({reason})",
     "{file}: cannot be written ({reason}); choose another folder": (

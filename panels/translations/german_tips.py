@@ -1,6 +1,20 @@
 """German: tooltips of operators, looks and settings."""
 
 _OPERATORS = {
+    "Take the Seeds tool: a click on the scan, in its image or on its mesh, places a seed in the tool's color": (
+        "Das Saatpunkt-Werkzeug nehmen: Ein Klick auf den Scan, im Bild oder auf dem Netz, setzt einen Saatpunkt in "
+        "der Farbe des Werkzeugs"
+    ),
+    "Take seeds, spread evenly, from the colors that came with the scan; hand-picked and locked ones stay": (
+        "Gleichmäßig verteilte Saatpunkte aus den Farben nehmen, die mit dem Scan kamen; von Hand gesetzte und "
+        "gesperrte bleiben"
+    ),
+    "Import the scan that comes with the extension, and the photo that goes with it, to try everything on": (
+        "Den Scan importieren, der mit der Erweiterung kommt, und das Foto dazu, um alles daran auszuprobieren"
+    ),
+    "Show what was found when the selected photo was matched with this scan": (
+        "Zeigen, was gefunden wurde, als das gewählte Foto diesem Scan zugeordnet wurde"
+    ),
     "Disable and enable Reflectance Colorizer: then Blender puts back what another extension took away": (
         "Reflectance Colorizer aus- und einschalten: dann setzt Blender wieder ein, was eine andere Erweiterung nahm"
     ),
@@ -176,7 +190,7 @@ _SETTINGS = {
     "Above 1 the colors are lighter, below 1 darker, whatever the light comes from; 1 changes nothing": (
         "Über 1 sind die Farben heller, unter 1 dunkler, woher auch immer das Licht kommt; 1 ändert nichts"
     ),
-    "Whether its camera was found and passed the test": "Ob seine Kamera gefunden wurde und die Prüfung bestand",
+    "Whether the photo's camera was found and confirmed": "Ob die Kamera des Fotos gefunden und bestätigt wurde",
     "All seeds where that takes about two seconds, else as many as it takes to be close to that": (
         "Alle Saatpunkte, wo das etwa zwei Sekunden braucht, sonst so viele, dass es dem nahekommt"
     ),

@@ -10,6 +10,9 @@ from .sources import SCAN
 # inverse of the real root of x^3 = x + 1 (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 _SPREAD = 1 / 1.32471795724474602596 ** np.array([1, 2])
 
+# More are asked for by mistake.
+MOST_SEEDS = 100_000
+
 
 def seeds_from_color(scan, count):
     """Return seeds that are spread evenly over a scan, in the colors that came with it.

@@ -29,6 +29,8 @@ _SHAPES = 0.5, 2.4
 _PICTURE_PIXELS = 1_300_000
 # Blender's 3D View has a sensor of twice the usual width.
 _REGION_SENSOR_MM = 72.0
+# Of what is free of a 3D View that looks through a camera, what the picture takes: headers lie over its edges.
+_CAMERA_SHARE = 0.88
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -155,6 +157,36 @@ def frame_in_region(points, scanners, *, size, covered, focal_mm):
     distance = max(float(np.median(depth) + back), _CLOSEST)
     fov_deg = np.degrees(2 * np.arctan(_REGION_SENSOR_MM / focal_mm / 2))
     return View(position=position, target=position + forward * distance, fov_deg=float(fov_deg), aspect=width / height)
+
+
+def camera_in_region(size, covered, aspect):
+    """Return how a 3D View that looks through a camera has the whole picture beside its sidebar.
+
+    Blender magnifies the view by z = (zoom / 50 + sqrt 2)^2 / 4: the longer side of the picture takes z of the longer
+    side of the region. Moved by an offset, the picture's middle is 2 z offset of the region's width to the left.
+
+    Parameters
+    ----------
+    size : (width, height) of int
+        Pixels of the region.
+    covered : int
+        Pixels at its right that a sidebar hides.
+    aspect : float
+        Width of the camera's picture over its height.
+
+    Returns
+    -------
+    zoom : float
+        For ``view_camera_zoom``.
+    offset : (x, y) of float
+        For ``view_camera_offset``.
+    """
+    width, height = (max(1, length) for length in size)
+    across, down = (1.0, 1 / aspect) if aspect >= 1 else (aspect, 1.0)
+    free = max(1, width - covered)
+    magnified = min(free / across, height / down) * _CAMERA_SHARE / max(width, height)
+    zoom = 50 * (2 * np.sqrt(magnified) - np.sqrt(2))
+    return float(zoom), (covered / (4 * width * magnified), 0.0)
 
 
 def _from_outside(points, heading, right, aspect):

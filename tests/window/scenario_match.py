@@ -18,7 +18,8 @@ def scenario_match_finds_seeds_and_keeps_picked_ones(window):
     yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 100, 200, "more than 100 seeds are found")
     seeds = window.scan.reflcolor.seeds
     window.equal((seeds[0].row, seeds[0].col, seeds[0].reason), (10, 20, "hand"), "the seed picked by hand")
-    window.check("verified" in window.scene.reflcolor.photos[0].note, "the photo's note says that it was verified")
+    (verdict,) = window.scan.reflcolor.verdicts
+    window.check(verdict.verified and verdict.image.name == "photo.jpg", "the scan keeps that the photo was verified")
     yield from window.screenshot("found")
     view = window.area("VIEW_3D")
     view.ui_type = "IMAGE_EDITOR"
@@ -45,4 +46,4 @@ def scenario_esc_while_matching_changes_nothing(window):
     yield from window.until(lambda: window.running() is None, 10, "ESC ends the work")
     yield 0.2
     window.equal(state_of(window.scan), before, "seeds, colors, attributes and images after ESC")
-    window.equal(window.scene.reflcolor.photos[0].note, "", "the photo's note")
+    window.equal(len(window.scan.reflcolor.verdicts), 0, "verdicts on photos")

@@ -21,8 +21,9 @@ ACTS = (
     ("remove_seed", {"index": 0}),
 )
 DIALOGS = {"add_seed", "move_seed"}
-# Tried by the file browser; and what takes too long to be done twice.
-ELSEWHERE = {"import_scan", "match_photos"}
+# Tried by the file browser; what takes too long to be done twice;
+# and what the example has nothing for.
+ELSEWHERE = {"import_scan", "match_photos", "seeds_from_color"}
 
 
 def with_redo_panel():

@@ -6,11 +6,11 @@ from pathlib import Path
 from ...batch.pipeline import run_plan
 from ...batch.plan import MATCHES, SEEDS, Output, Plan
 from ...errors import UsageError
+from ...seeds.scan_colors import MOST_SEEDS
 from ..options import add_matching, add_photos, add_scans, reading_of, settings_of
 
 NAME = "seeds"
 HELP = "find seeds in photos, or take them from the scan's own colors"
-_MOST = 100_000
 
 
 def add_arguments(parser):
@@ -36,8 +36,8 @@ def add_arguments(parser):
 
 def _count(text):
     count = int(text) if text.isdecimal() else 0
-    if not 1 <= count <= _MOST:
-        raise argparse.ArgumentTypeError(f"expected a whole number from 1 to {_MOST}, found {text}")
+    if not 1 <= count <= MOST_SEEDS:
+        raise argparse.ArgumentTypeError(f"expected a whole number from 1 to {MOST_SEEDS}, found {text}")
     return count
 
 

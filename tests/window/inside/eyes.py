@@ -53,6 +53,17 @@ class Eyes:
             return
         self.pictures.append(path.name)
 
+    def colors_at(self, places):
+        """Return the (r, g, b) of 0..255 that the screen shows at places of the window; a generator."""
+        yield from self.move((self.bpy_window.width * 0.75, 4))
+        yield _STILL_S
+        with tempfile.TemporaryDirectory() as folder:
+            image = bpy.data.images.load(str(_shoot(Path(folder) / "look.png")))
+            (width, _), pixels = image.size, image.pixels[:]
+            bpy.data.images.remove(image)
+        firsts = [4 * (int(y) * width + int(x)) for x, y in places]
+        return [tuple(round(255 * value) for value in pixels[first : first + 3]) for first in firsts]
+
     # ---- places
 
     def area(self, kind="VIEW_3D", index=0):

@@ -1,0 +1,37 @@
+"""Open the example that comes with the extension."""
+
+from pathlib import Path
+
+import bpy
+
+from ..reflcolor_addon.errors import ScanError
+from .scene.reports import reported
+
+_FOLDER = Path(__file__).parents[1] / "examples" / "cones"
+_SCAN, _PHOTO = "cones.scan.json", "photo.jpg"
+
+
+class REFLCOLOR_OT_open_example(bpy.types.Operator):
+    """Import the scan that comes with the extension, and the photo that goes with it, to try everything on"""
+
+    bl_idname = "reflcolor.open_example"
+    bl_label = "Open Example"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @reported
+    def invoke(self, context, _event):
+        return self._open(context, "INVOKE_DEFAULT")
+
+    @reported
+    def execute(self, context):
+        return self._open(context, "EXEC_DEFAULT")
+
+    def _open(self, context, way):
+        if not (_FOLDER / _SCAN).is_file():
+            raise ScanError("the example is not there: {path}; install the extension again", path=_FOLDER / _SCAN)
+        bpy.ops.reflcolor.load_photo("EXEC_DEFAULT", filepath=str(_FOLDER / _PHOTO))
+        outcome = bpy.ops.reflcolor.import_scan(way, filepath=str(_FOLDER / _SCAN))
+        return {"CANCELLED"} if "CANCELLED" in outcome else {"FINISHED"}
+
+
+classes = (REFLCOLOR_OT_open_example,)
