@@ -27,7 +27,8 @@ class Compare(Step):
 
 def draw_in_header(self, context):
     """The switch in the Image Editor's own header, while it shows an image of a scan that has colors."""
-    obj = scan_of_image(context.space_data.image, context)
+    image = context.space_data.image
+    obj = None if image is None else scan_of_image(image, context)
     if obj is not None and overlay_image(obj) is not None:
         self.layout.prop(context.window_manager.reflcolor_wipe, "show", toggle=True, icon="ARROW_LEFTRIGHT")
 

@@ -72,6 +72,22 @@ class RandomActs:
     def place_seed(self):
         self.window.call("reflcolor.place_seed", **self._place(), snap=self.random.random() < 0.7)
 
+    def choose_color(self):
+        self.window.scene.reflcolor.picked_color = self._color()
+        self.window.push("Seed Color")
+
+    def drop_color(self):
+        self.window.call("reflcolor.drop_color")
+
+    def take_seed_tool(self):
+        self.window.invoke("reflcolor.take_seed_tool")
+
+    def seeds_from_color(self):
+        self.window.call("reflcolor.seeds_from_color", count=self.random.randrange(1, 30))
+
+    def set_up_render(self):
+        self.window.call("reflcolor.set_up_render")
+
     def select_seeds(self):
         which = self.random.choice(("all", "none", "found", "unsure", "uncolored"))
         self.window.call("reflcolor.select_all_seeds", which=which)
@@ -224,6 +240,11 @@ ACTS_AND_WEIGHTS = (
     (RandomActs.clear_seeds, 1),
     (RandomActs.load_seeds, 3),
     (RandomActs.place_seed, 6),
+    (RandomActs.choose_color, 5),
+    (RandomActs.drop_color, 2),
+    (RandomActs.take_seed_tool, 2),
+    (RandomActs.seeds_from_color, 2),
+    (RandomActs.set_up_render, 1),
     (RandomActs.select_seeds, 4),
     (RandomActs.delete_seeds, 3),
     (RandomActs.lock_seeds, 2),
