@@ -18,19 +18,19 @@ class REFLCOLOR_OT_open_example(bpy.types.Operator):
     bl_label = "Open Example"
     bl_options = {"REGISTER", "UNDO"}
 
-    @reported
+    _way = "EXEC_DEFAULT"
+
     def invoke(self, context, _event):
-        return self._open(context, "INVOKE_DEFAULT")
+        # In the window the import shows its progress, and goes on with events.
+        self._way = "INVOKE_DEFAULT"
+        return self.execute(context)
 
     @reported
-    def execute(self, context):
-        return self._open(context, "EXEC_DEFAULT")
-
-    def _open(self, context, way):
+    def execute(self, _context):
         if not (_FOLDER / _SCAN).is_file():
             raise ScanError("the example is not there: {path}; install the extension again", path=_FOLDER / _SCAN)
         bpy.ops.reflcolor.load_photo("EXEC_DEFAULT", filepath=str(_FOLDER / _PHOTO))
-        outcome = bpy.ops.reflcolor.import_scan(way, filepath=str(_FOLDER / _SCAN))
+        outcome = bpy.ops.reflcolor.import_scan(self._way, filepath=str(_FOLDER / _SCAN))
         return {"CANCELLED"} if "CANCELLED" in outcome else {"FINISHED"}
 
 
