@@ -84,9 +84,8 @@ def observed_reader(obj):
 
 def keep_cameras(obj, matches):
     """Keep how an object's scan falls into each photo that was recognized; ``matches`` are `PhotoMatch`."""
-    found = [
-        {"name": match.name, "model": model_document(match.model)} if match.verified else None for match in matches
-    ]
+    models = [(match.name, match.model) for match in matches]
+    found = [None if model is None else {"name": name, "model": model_document(model)} for name, model in models]
     obj[_CAMERAS] = json.dumps(found)
 
 
