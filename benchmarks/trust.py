@@ -25,8 +25,8 @@ from reflcolor_addon.matching.photo_image import PhotoImage
 from reflcolor_addon.matching.registration.registration import ScanViews, register
 
 RESULTS = Path("build/trust.jsonl")
-# Of each kind, for one scan with one kind of holes; of the many photographs others for each.
-_OF_KIND = {"noise": 4, "foreign": 5, "scrambled": 3, "elsewhere": 2, "mirrored": 2, "upside-down": 2, "reflectance": 2}
+# Of each kind, for one scan with one kind of holes, so that about half are photographs; others of these for each scan.
+_OF_KIND = {"noise": 4, "foreign": 9, "scrambled": 2, "elsewhere": 2, "mirrored": 2, "upside-down": 2, "reflectance": 2}
 
 
 def main():
@@ -41,12 +41,13 @@ def main():
     arguments = parser.parse_args()
     ends = time.monotonic() + 60 * arguments.minutes
     known = {try_["key"]: try_ for try_ in _read(arguments.results)}
+    photographs = {}
     arguments.results.parent.mkdir(parents=True, exist_ok=True)
     with arguments.results.open("a", encoding="utf-8") as file:
         for group in _groups(arguments):
             if time.monotonic() >= ends:
                 break
-            for try_ in _tried(group, arguments, known, ends):
+            for try_ in _tried(group, arguments, known, photographs, ends):
                 known[try_["key"]] = try_
                 file.write(json.dumps(try_) + "\n")
                 file.flush()
@@ -82,8 +83,8 @@ def _photos(scan, holes, arguments):
             yield kind, name, rgb
 
 
-def _tried(group, arguments, known, ends):
-    """Yield a dict of what became of each photo of a group that is not known yet."""
+def _tried(group, arguments, known, photographs, ends):
+    """Yield a dict of what became of each photo of a group that is not known yet; photographs are kept as images."""
     scan_name, holes = group
     views = None
     for kind, name, rgb in _photos(*group, arguments):
@@ -93,7 +94,11 @@ def _tried(group, arguments, known, ends):
         if views is None:
             views = ScanViews(trust_cases.with_holes(trust_cases.scan(scan_name), holes))
         started = time.process_time()
-        found = register(views, PhotoImage(name, rgb))
+        if kind in ("foreign", "elsewhere"):
+            photo = photographs.setdefault(name, PhotoImage(name, rgb))
+        else:
+            photo = PhotoImage(name, rgb)
+        found = register(views, photo)
         proof = found.evidence
         off = None
         if kind in ("pair", "all around") and found.model is not None:

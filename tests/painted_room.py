@@ -13,7 +13,7 @@ _PANELS = (
     ((0.4, 3.4, -1.5), (1.0, 0.0, 0.0), (0.0, 0.0, 1.6)),
     ((0.4, 3.4, -1.5), (0.0, 1.0, 0.0), (0.0, 0.0, 1.6)),
 )
-_PATCH_M = 0.3
+PATCH_M = 0.3
 
 
 def hits(origins, rays, seed=0):
@@ -32,7 +32,7 @@ def hits(origins, rays, seed=0):
             inside &= (length >= 0) & (length <= np.linalg.norm(side))
         # Which patch, and its random paint: the infrared reflectance has nothing to do with the color.
         paint = np.random.default_rng((seed, panel)).random((32, 32, 4))
-        cell = [np.clip(np.nan_to_num(length) / _PATCH_M, 0, 31).astype(int) for length in along]
+        cell = [np.clip(np.nan_to_num(length) / PATCH_M, 0, 31).astype(int) for length in along]
         rgb[inside] = (40 + 200 * paint[cell[0], cell[1], :3][inside]).astype(np.uint8)
         reflectance[inside] = paint[cell[0], cell[1], 3][inside]
         nearest = np.where(inside, distance, nearest)

@@ -11,6 +11,8 @@ from reflcolor_addon import Scan
 from reflcolor_addon.matching.grid_angles import GridAngles, closed
 from reflcolor_addon.matching.models import GridHomography
 from reflcolor_addon.matching.photo_image import PhotoImage
+from reflcolor_addon.matching.registration.fitting import beside, finely
+from reflcolor_addon.matching.registration.registration import ScanViews
 from reflcolor_addon.matching.registration.tiles import Sighting, Tiles, surfaces
 from reflcolor_addon.matching.registration.verification import by_chance, evidence
 from reflcolor_addon.matching.scan_image import ScanImage, toned
@@ -135,3 +137,13 @@ def test_a_right_camera_stands_out_from_the_photos_parts_exchanged(room, camera)
     chance = by_chance(image, Sighting.of(image, photo, camera), camera)
     assert len(chance) == 8
     assert evidence(image, photo, camera).strength > 3 * chance.max()
+
+
+def test_a_camera_off_by_one_patch_of_a_pattern_moves_to_where_more_agrees(room, camera):
+    views, photo = ScanViews(room), PhotoImage("photo", painted_room.photo(camera))
+    rng = np.random.default_rng(0)
+    off_by_one = replace(camera, center=camera.center - [painted_room.PATCH_M, 0, 0])
+    wrong, proof = finely(views, photo, off_by_one, rng)
+    assert proof.accepted and abs(wrong.center[0] - camera.center[0]) > 0.2
+    found, _ = beside(views, photo, wrong, proof)
+    np.testing.assert_allclose(found.center, camera.center, atol=0.1)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .registration import refined
+from .fitting import refined
 from .search import Search
 
 # Lengths of the photo's longer side; one step of the search's own list is covered from one to the next.

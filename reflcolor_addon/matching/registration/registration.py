@@ -9,7 +9,7 @@ from ...messages import Message
 from ..grid_angles import closed
 from ..scan_image import ScanImage, pixel_steps, toned
 from . import features
-from .refinement import fitted, tightened
+from .fitting import COARSE, FINE, MIDDLE, beside, finely, refined
 from .search import Search, map_step
 from .tiles import Tiles, surfaces
 from .verification import (
@@ -19,17 +19,14 @@ from .verification import (
     TILE,
     Evidence,
     beyond_chance,
-    evidence,
     judged,
     known_before,
 )
 
-# Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
-_COARSE, _MIDDLE, _FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
 # Pixels, tile, radius, blur and spread from guess to guess: a direction from the scanner is found nearly exactly, and
 # weak evidence shows on fine levels only; a place aside is found roughly.
 _FROM_SCANNER = ([(0.6, TILE, 8, 2.0, 0.5)],)
-_FROM_ASIDE = ([(*_COARSE, 10, 1.5, 1.2)], [(*_MIDDLE, 10, 1.0, 0.8)])
+_FROM_ASIDE = ([(*COARSE, 10, 1.5, 1.2)], [(*MIDDLE, 10, 1.0, 0.8)])
 # From this multiple of the needed evidence on, nothing better is looked for.
 _CONVINCING = 2.0
 # And from this mean score of all tiles on: a homography may be right for a wall, where a camera is for all.
@@ -75,7 +72,7 @@ class Registration:
         """Return it with what is needed to stand out from chance, which is tried only where it counts."""
         if not self.accepted:
             return self
-        return replace(self, evidence=beyond_chance(self.evidence, views.image(_FINE[0]), photo, self.model))
+        return replace(self, evidence=beyond_chance(self.evidence, views.image(FINE[0]), photo, self.model))
 
     def better_than(self, other):
         """Whether more speaks for it than for another one."""
@@ -106,7 +103,7 @@ class ScanViews:
             )
         if np.ptp(points, axis=0).max() == 0:
             return Message("all returns of the scan are in one place")
-        parts = len(self.tiles(*_FINE).corners)
+        parts = len(self.tiles(*FINE).corners)
         if parts < LEAST_PARTS:
             return Message(
                 "the scan has {count} parts to compare, at least {least} are needed", count=parts, least=LEAST_PARTS
@@ -130,17 +127,18 @@ class ScanViews:
     @property
     def repeats(self):
         """How many pixels of the finest image stand for one measurement."""
-        return self.image(_FINE[0]).pixels_per_measurement
+        return self.image(FINE[0]).pixels_per_measurement
 
     def image(self, share):
         """The `ScanImage` whose pixels are ``share`` of the search's."""
-        return self._once(("image", share), lambda: ScanImage(self.closed, self.ranks, self.step_deg * share))
+        return self.once(("image", share), lambda: ScanImage(self.closed, self.ranks, self.step_deg * share))
 
     def tiles(self, share, size):
         """Tiles on that image."""
-        return self._once(("tiles", share, size), lambda: Tiles.of(self.image(share), size))
+        return self.once(("tiles", share, size), lambda: Tiles.of(self.image(share), size))
 
-    def _once(self, key, make):
+    def once(self, key, make):
+        """Return what ``make()`` made when the key was first asked for."""
         if key not in self._made:
             self._made[key] = make()
         return self._made[key]
@@ -189,6 +187,9 @@ def register(views, photo, *, step=lambda text: None):
             best = found
         if best.beyond_doubt and best.evidence.mean >= _CLEAR:
             break
+    if best.accepted and best.model.kind == "pose":
+        model, proof = beside(views, photo, best.model, best.evidence, step=step)
+        best = replace(best, model=model, evidence=proof)
     return best.beyond_chance(views, photo)
 
 
@@ -200,7 +201,7 @@ def confirmed(views, photo, model, pairs=None):
     """
     rng = np.random.default_rng(0)
     best = Registration.nothing("known")
-    near, _ = refined(views, photo, model, [(*_MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng, pairs=pairs)
+    near, _ = refined(views, photo, model, [(*MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng, pairs=pairs)
     for start in (model, near):
         if start is None:
             continue
@@ -211,54 +212,6 @@ def confirmed(views, photo, model, pairs=None):
         if found.better_than(best):
             best = found
     return best.beyond_chance(views, photo)
-
-
-def refined(views, photo, model, levels, *, free, rng, pairs=None):
-    """Return a model fitted level by level, and its `Evidence` on the last one."""
-    model = _led(views, photo, model, levels, free, rng, pairs)
-    if model is None:
-        return None, NO_EVIDENCE
-    share, size = levels[-1][:2]
-    found = surfaces(views.image(share), views.tiles(share, size), photo, model, RADIUS)
-    return model, NO_EVIDENCE if found is None else judged(found)
-
-
-def _led(views, photo, model, levels, free, rng, pairs=None):
-    """A model fitted level by level; None where the photo shows too little of the scan."""
-    for share, size, radius, blur, spread in levels:
-        found = surfaces(views.image(share), views.tiles(share, size), photo, model, radius)
-        if found is None:
-            return None
-        model, _ = fitted(found, model, free, blur=blur, spread=spread, rng=rng, pairs=pairs)
-    return model
-
-
-def finely(views, photo, model, rng, *, turned_only=False, pairs=None):
-    """Return a camera or homography that is nearly right, fitted with all it has, and its `Evidence`.
-
-    With ``turned_only`` a camera stays where it is: where that is right, nothing is as sure.
-    """
-    last = model.TURNED if turned_only else model.ALL
-    if pairs is not None and views.repeats > 1:
-        # A few pairs bend to a lens, and drawn out tiles do not hold it.
-        last = model.POSE
-    if model.kind == "homography":
-        stages = [(model.ALL, [(*_FINE, 6, 0.5, 0.4)])]
-    elif turned_only:
-        stages = [(model.ROTATION, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 6, 0.5, 0.3)])]
-    else:
-        stages = [(model.POSE, [(*_FINE, 8, 1.0, 0.5), (*_FINE, 8, 0.7, 0.4)]), (last, [(*_FINE, 6, 0.5, 0.2)])]
-    for free, levels in stages:
-        model = _led(views, photo, model, levels, free, rng, pairs)
-        if model is None:
-            return None, NO_EVIDENCE
-    image, tiles = views.image(_FINE[0]), views.tiles(*_FINE)
-    for _ in range(2):
-        found = surfaces(image, tiles, photo, model, RADIUS)
-        if found is None:
-            return None, NO_EVIDENCE
-        model = tightened(found, model, last, pairs)
-    return model, evidence(image, photo, model)
 
 
 def _by_features(views, photo, step):
@@ -274,7 +227,7 @@ def _by_features(views, photo, step):
     step()
     for model in candidates():
         step()
-        rough = surfaces(views.image(_MIDDLE[0]), views.tiles(*_MIDDLE), photo, model, RADIUS)
+        rough = surfaces(views.image(MIDDLE[0]), views.tiles(*MIDDLE), photo, model, RADIUS)
         if rough is None or judged(rough).deviations < _LEAST_DEVIATIONS:
             continue
         found = Registration(*finely(views, photo, model, rng), "features")
@@ -313,7 +266,7 @@ def _tried(views, photo, guesses, aside, step):
         if best.evidence.rank < _PROMISING:
             break
         before = best
-        wider, _ = refined(views, photo, best.model, [(*_MIDDLE, 10, 1.0, 0.8)], free=best.model.POSE, rng=rng)
+        wider, _ = refined(views, photo, best.model, [(*MIDDLE, 10, 1.0, 0.8)], free=best.model.POSE, rng=rng)
         for start in (before.model, wider):
             step(f"{photo.name}: refining")
             if start is not None:

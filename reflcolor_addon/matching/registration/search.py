@@ -110,7 +110,7 @@ class Search:
             maps = self._maps(focal, coarser)
             if maps.step_deg not in spheres:
                 step()
-                spheres = {maps.step_deg: [self._sphere(place, maps.step_deg) for place in places]}
+                spheres = {maps.step_deg: [self._whole_sphere(place, maps.step_deg) for place in places]}
             step()
             for pitch in pitches:
                 for sphere in spheres[maps.step_deg]:
@@ -124,6 +124,10 @@ class Search:
         if coarser not in self._photo_maps:
             self._photo_maps[coarser] = PhotoMaps(self._photo, self._views.step_deg * coarser)
         return self._photo_maps[coarser]
+
+    def _whole_sphere(self, center, step_deg):
+        """The scan all around a place, made once for all photos."""
+        return self._views.once(("sphere", center, step_deg), lambda: self._sphere(center, step_deg))
 
     def _sphere(self, center, step_deg, window=None):
         image = self._views.image(0.5)

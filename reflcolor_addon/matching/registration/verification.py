@@ -39,6 +39,7 @@ _ACCEPTED_MEAN = 0.7
 # Tiles half overlap: four in place tell what one point does, and a camera that may be anywhere goes through any four.
 LEAST_PARTS, _TILES_ANYWHERE = 10, 30
 # Of a photo whose parts are exchanged: whether it is mirrored, and what share of it is moved down and to the right.
+# More are tried where the verdict hangs on it: where what these ask for is within a factor of the strength.
 _EXCHANGED = (
     (0, 0, 0.35),
     (0, 0, 0.65),
@@ -49,6 +50,13 @@ _EXCHANGED = (
     (1, 0.5, 0.25),
     (1, 0.5, 0.75),
 )
+_MORE_EXCHANGED = tuple(
+    (mirrored, down, right)
+    for mirrored in (0, 1)
+    for down, rights in ((0, (0.2, 0.8)), (0.3, (0.1, 0.45, 0.8)), (0.5, (0, 0.45)), (0.7, (0.3,)))
+    for right in rights
+)
+_HANGS_ON_IT = 2.0
 # The tiles in place must spread over the scan as far as a third of how all tiles do.
 _ACCEPTED_SPREAD = 0.33
 
@@ -148,10 +156,18 @@ def beyond_chance(proof, scan_image, photo, model):
     if sighting is None:
         return proof
     strengths = by_chance(scan_image, sighting, model)
+    needed = _needed_by_chance(strengths)
+    if proof.strength / _HANGS_ON_IT < needed < proof.strength * _HANGS_ON_IT:
+        strengths = np.concatenate([strengths, by_chance(scan_image, sighting, model, _MORE_EXCHANGED)])
+        needed = _needed_by_chance(strengths)
+    return replace(proof, needed=max(proof.needed, needed))
+
+
+def _needed_by_chance(strengths):
+    """The strength that is needed to stand out from those found by chance; 0 where hardly any was found."""
     if len(strengths) < 2:
-        return proof
-    chance = strengths.mean() + _CHANCE_DEVIATIONS * strengths.std(ddof=1)
-    return replace(proof, needed=max(proof.needed, _BEYOND_CHANCE * float(chance)))
+        return 0.0
+    return _BEYOND_CHANCE * float(strengths.mean() + _CHANCE_DEVIATIONS * strengths.std(ddof=1))
 
 
 def _needed(scan_image, model):
@@ -187,7 +203,7 @@ def judged(found, shift=0.0):
     return Evidence(_deviations(near), int(near.sum()), count, float(middle.mean()), spread, distinct)
 
 
-def by_chance(scan_image, sighting, model):
+def by_chance(scan_image, sighting, model, exchanged=_EXCHANGED):
     """Return the strengths (K,) that a model has for photos that cannot be right: parts of its own, exchanged.
 
     The photo's edges are moved far away, and mirrored, under the scan; then the model is fitted to them as it was to
@@ -197,7 +213,7 @@ def by_chance(scan_image, sighting, model):
     height, width = sighting.seen.shape
     tiles = Tiles.of(scan_image, TILE)
     free = model.ALL if model.kind == "homography" else model.POSE
-    for mirrored, down, right in _EXCHANGED:
+    for mirrored, down, right in exchanged:
         features = sighting.features[:, ::-1] * np.float32([1, 1, -1]) if mirrored else sighting.features
         features = np.roll(features, (round(down * height), round(right * width)), (0, 1))
         found = surfaces(scan_image, tiles, None, model, RADIUS, replace(sighting, features=features))
