@@ -85,7 +85,8 @@ def test_seeds_lie_on_pixels_with_a_return_one_per_superpixel(matching, room):
 
 def test_the_same_input_gives_the_same_seeds_whatever_the_thread_count(monkeypatch, matching, room, turned):
     threads = cv2.getNumThreads()
-    monkeypatch.setattr(sphere_map, "_WORKERS", 1 if sphere_map._WORKERS > 1 else 2)
+    other = 1 if sphere_map.thread_count() > 1 else 2
+    monkeypatch.setattr(sphere_map, "thread_count", lambda: other)
     try:
         cv2.setNumThreads(1)
         again = match_seeds(room, [turned], FEW)
