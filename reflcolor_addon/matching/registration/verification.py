@@ -37,7 +37,8 @@ _APART, _DISTINCT = 3.0, 0.3
 _NEEDED_OF_DISTINCT = 0.7
 _ACCEPTED_MEAN = 0.7
 # Tiles half overlap: four in place tell what one point does, and a camera that may be anywhere goes through any four.
-LEAST_PARTS, _TILES_ANYWHERE = 10, 30
+# On a scan of few tiles, ten in place were once found for a wrong photo.
+LEAST_PARTS, _TILES_AT_SCANNER, _TILES_ANYWHERE = 10, 12, 30
 # Of a photo whose parts are exchanged: whether it is mirrored, and what share of it is moved down and to the right.
 # More are tried where the verdict hangs on it: where what these ask for is within a factor of the strength.
 _EXCHANGED = (
@@ -173,12 +174,12 @@ def _needed_by_chance(strengths):
 def _needed(scan_image, model):
     """The strength and the number of tiles that are needed for a model."""
     if model.kind == "homography":
-        return _NEEDED_AT_SCANNER, LEAST_PARTS
+        return _NEEDED_AT_SCANNER, _TILES_AT_SCANNER
     share = np.linalg.norm(model.center) / np.median(scan_image.range[scan_image.valid])
     freedom = [0, _ANYWHERE_SHARE]
     return (
         float(np.interp(share, freedom, [_NEEDED_AT_SCANNER, _NEEDED_ANYWHERE])),
-        float(np.interp(share, freedom, [LEAST_PARTS, _TILES_ANYWHERE])),
+        float(np.interp(share, freedom, [_TILES_AT_SCANNER, _TILES_ANYWHERE])),
     )
 
 
