@@ -156,6 +156,8 @@ def _kill(folder, moments):
 
 def _command(folder, *outputs, scan="room.e57", environment=None):
     line = [sys.executable, "-m", "reflcolor_addon", "colorize", scan, "--seeds", "seeds.json"]
+    # Its brightness is the scan's noise, which no picture packs well.
+    line += ["--preset", "Paper"]
     scratch = folder / "scratch"
     scratch.mkdir(exist_ok=True)
     env = os.environ | {"PYTHONPATH": str(ROOT), "TMPDIR": str(scratch)} | (environment or {})
