@@ -16,19 +16,27 @@ from reflcolor_addon.cli.interruption import Interruption
 from reflcolor_addon.files.writers import write_ptx
 
 
+@pytest.fixture(autouse=True)
+def _with_a_terminal():
+    """Tests may run under nohup, where SIGHUP is ignored, here and in what is started from here."""
+    previous = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    yield
+    signal.signal(signal.SIGHUP, previous)
+
+
 @pytest.fixture
 def interrupting(monkeypatch):
     """A function that makes ``colorize`` get a signal at its first progress."""
 
     def arrange(number=signal.SIGINT, times=1):
-        def interrupted(scan, seeds, settings, *, progress, cancelled):
+        def interrupted(scan, seeds, settings, observed, *, progress, cancelled):
             def told(fraction, text):
                 for _ in range(times):
                     signal.raise_signal(number)
                 if not cancelled():
                     progress(fraction, text)
 
-            return colorize(scan, seeds, settings, progress=told, cancelled=cancelled)
+            return colorize(scan, seeds, settings, observed, progress=told, cancelled=cancelled)
 
         monkeypatch.setattr("reflcolor_addon.batch.pipeline.colorize", interrupted)
 
