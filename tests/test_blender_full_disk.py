@@ -10,6 +10,7 @@ from small_scans import random_scan
 from reflcolor_addon import Seeds, Settings, colorize
 from reflcolor_addon.batch.scan_job import ScanJob
 from reflcolor_addon.report.report import build_report, scan_entry
+from reflcolor_addon.view.picture import Picture
 
 SCENE = "bl_ext.user_default.reflcolor.operators.scene"
 resource = pytest.importorskip("resource", reason="needs limits of POSIX")
@@ -44,7 +45,7 @@ def test_a_full_disk_is_one_line_and_the_old_file_survives(blender, tmp_path, ca
     path.write_bytes(b"old and good")
     paths, picture = ([], path) if name.endswith(".png") else ([path], None)
     with pytest.raises(module.OutputError) as caught, no_room_beyond(2000):
-        module.write_results([result], paths, picture, lambda fraction, text: None)
+        module.write_results([result], paths, picture, Picture(), lambda fraction, text: None)
     assert str(caught.value).startswith(f"{path}: ")
     assert "\n" not in str(caught.value)
     assert path.read_bytes() == b"old and good"

@@ -20,7 +20,10 @@ import bpy, json, os, sys
 import numpy as np
 bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
 facts = {}
-for obj in [o for o in bpy.data.objects if o.type == "MESH"]:
+# What a modifier shows in pictures is an object that stands in no scene.
+scans = [o for o in bpy.data.objects if o.type == "MESH" and not o.name.endswith(" Shown Surface")]
+assert {o.name for o in bpy.context.scene.objects if o.type == "MESH"} == {o.name for o in scans}
+for obj in scans:
     rgba = np.empty(4 * len(obj.data.vertices), np.float32)
     obj.data.color_attributes["Colorized"].data.foreach_get("color_srgb", rgba)
     facts[obj.name] = {

@@ -59,6 +59,7 @@ def test_zip_holds_the_sources_and_nothing_else(contents):
         "CHANGELOG.md",
         "LICENSE",
         "README.md",
+        "examples",
         "operators",
         "panels",
         "reflcolor_addon",
