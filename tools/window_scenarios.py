@@ -13,6 +13,8 @@ from window_blender import ROOT, Blender, Ended, run
 HERE = ROOT / "tests" / "window"
 OUT = ROOT / "build" / "window"
 DATA = Path(os.environ.get("REFLCOLOR_DATA") or ROOT.parent / "shared" / "data")
+# How many random acts there are; few enough for CI, unless a person asks for more.
+ACTS = os.environ.get("REFLCOLOR_ACTS", "200")
 SESSION = ROOT / "tools" / "window_session.sh"
 SIZE = (1280, 900)
 LIMIT_S = 400
@@ -140,7 +142,11 @@ def run_file(file: ScenarioFile, names: list[str], blender: Blender, zip_file: P
     line += ["--python", seen(HERE / "inside" / "start.py"), "--", "--scenarios", seen(file.path), "--names", *names]
     line += ["--zip", seen(zip_file), "--out", seen(out), "--results", seen(results), "--limit", str(file.limit_s - 5)]
     line += ["--examples", seen(ROOT / "examples"), *(["--data", seen(DATA)] if DATA.is_dir() else [])]
-    ended = run(blender.command(line, folders, {"BLENDER_USER_RESOURCES": seen(user)}), file.limit_s, log)
+    ended = run(
+        blender.command(line, folders, {"BLENDER_USER_RESOURCES": seen(user), "REFLCOLOR_ACTS": ACTS}),
+        file.limit_s,
+        log,
+    )
 
     outcomes = read_outcomes(names, results, log)
     for outcome in outcomes.values():
