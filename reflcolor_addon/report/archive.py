@@ -139,6 +139,10 @@ def _of_report(path, report):
     )
 
 
+def _scans(count):
+    return "1 scan" if count == 1 else f"{count} scans"
+
+
 def _page(root, entries):
     template = Template(files(__package__).joinpath("page.html").read_text(encoding="utf-8"))
     count = {state: sum(entry["state"] == state for entry in entries) for state in _STATES}
@@ -146,7 +150,7 @@ def _page(root, entries):
     colors = {"observed": OBSERVED, "inferred": INFERRED, "guess": GUESS, "unknown": UNKNOWN}
     return template.substitute(
         title=escape(f"Colorized scans in {root.absolute().name}"),
-        summary=escape(f"{len(entries)} scans: {', '.join(parts)}." if entries else "No scan was worked on yet."),
+        summary=escape(f"{_scans(len(entries))}: {', '.join(parts)}." if entries else "No scan was worked on yet."),
         rows="\n".join(map(_row, entries)),
         version=escape(__version__),
         **{name: "#{:02x}{:02x}{:02x}".format(*rgb) for name, rgb in colors.items()},

@@ -28,7 +28,7 @@ def run(arguments, session):
         session.say(Message("wrote {path}", path=path))
     if failed and arguments.fail:
         message = Message(
-            "{folder}: {count} scans failed: {names}; see the folder logs",
+            "{folder}: {count} failed: {names}; see the folder logs",
             folder=arguments.input,
             count=len(failed),
             names=", ".join(failed),
