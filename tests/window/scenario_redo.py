@@ -16,6 +16,7 @@ ACTS = (
     ("move_seed", {"index": 0, "row": 100, "col": 100}),
     ("load_seeds", {"filepath": "cones.seeds.json"}),
     ("colorize", {}),
+    ("make_texture", {"pixels": 512}),
     ("show_look", {"look": "confidence"}),
     ("apply_preset", {"preset": "Enhanced"}),
     ("remove_seed", {"index": 0}),
