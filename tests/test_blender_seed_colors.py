@@ -1,5 +1,7 @@
 """Where seeds get their colors: from the tool, from the scan itself; and what holds on to a photo that is renamed."""
 
+import importlib
+
 import numpy as np
 import pytest
 from small_scans import random_scan
@@ -8,6 +10,8 @@ from test_blender_picking import color, scan, scan_file, seeds, settings  # noqa
 
 from reflcolor_addon import Scan
 from reflcolor_addon.files.writers import write_ptx
+
+SCENE = "bl_ext.user_default.reflcolor.operators.scene"
 
 
 def test_the_tools_color_goes_to_the_seed_that_waits_and_to_those_placed_next(scan):  # noqa: F811
@@ -40,9 +44,7 @@ def test_a_seed_that_waits_is_given_a_color_in_the_list(scan):  # noqa: F811
 def test_renaming_a_photos_image_keeps_its_seeds_with_it(scan):  # noqa: F811
     scan.ops.reflcolor.place_seed(row=2, col=3)
     scan.ops.reflcolor.pick_color(photo="photo.png", photo_xy=(45, 10))
-    seed_list = pytest.importorskip(
-        scan.types.REFLCOLOR_OT_place_seed.__module__.replace("place_seed", "scene.seed_list")
-    )
+    seed_list = importlib.import_module(f"{SCENE}.seed_list")
     assert seed_list.seeds_of(scan.context.active_object).photos == ("photo.png",)
     scan.data.images["photo.png"].name = "yard.png"
     assert seed_list.seeds_of(scan.context.active_object).photos == ("yard.png",)
@@ -51,7 +53,7 @@ def test_renaming_a_photos_image_keeps_its_seeds_with_it(scan):  # noqa: F811
 def test_photos_are_there_in_another_scene(scan):  # noqa: F811
     scan.ops.reflcolor.pick_color(photo="photo.png", photo_xy=(5, 10))
     other = scan.data.scenes.new("Other")
-    lists = pytest.importorskip(scan.types.REFLCOLOR_OT_place_seed.__module__.replace("place_seed", "scene.photo_list"))
+    lists = importlib.import_module(f"{SCENE}.photo_list")
     assert [image.name for image in lists.listed_images(other)] == ["photo.png"]
     assert lists.active_image(other).name == "photo.png"
 

@@ -156,7 +156,7 @@ def run_fuzz(compiler, tmp_path, *options, rounds):
 def test_random_sizes_and_strides_pass_the_sanitizers():
     if sys.platform == "win32":
         pytest.skip("needs a shell")
-    done = subprocess.run([FUZZ, "500", "1"], capture_output=True, text=True, timeout=300, check=False)
+    done = subprocess.run([FUZZ, "1500", "1"], capture_output=True, text=True, timeout=300, check=False)
     if done.returncode == 77:
         pytest.skip(done.stderr.strip())
     assert not done.returncode, done.stdout + done.stderr

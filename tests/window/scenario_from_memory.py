@@ -69,5 +69,5 @@ def scenario_marks_have_the_colors_of_their_seeds(window):
         where = "in the image" if number < len(COLORS) else "on the mesh"
         off = max(abs(one - other) for one, other in zip(shown, expected, strict=True))
         window.check(
-            off <= 10, f"mark {number % len(COLORS) + 1} {where}: expected {expected}, the screen shows {shown}"
+            off <= 4, f"mark {number % len(COLORS) + 1} {where}: expected {expected}, the screen shows {shown}"
         )
