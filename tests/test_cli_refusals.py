@@ -2,6 +2,7 @@
 
 import os
 import struct
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_e57
 
 SEEDS = ("seeds", "garage.ptx", "--photo", "view.png")
+_NOBODY = 65534
 
 # Wrong usage
 
@@ -188,14 +190,32 @@ def test_bad_options_are_said_in_one_line_before_anything_is_written(run_cli, cl
     assert sorted(cli_folder.rglob("*")) == before
 
 
-@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="everything is writable to root")
+@contextmanager
+def as_nobody():
+    """Files are opened as a user without rights, where tests run as root, to whom everything is writable."""
+    root = os.geteuid() == 0
+    if root:
+        os.seteuid(_NOBODY)
+    try:
+        yield
+    finally:
+        if root:
+            os.seteuid(0)
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="permissions of POSIX")
 def test_a_folder_or_file_that_may_not_be_written_is_said_in_one_line(run_cli, cli_folder):
+    # What is imported on the way lies where nobody may read.
+    assert run_cli(*COLORIZE, "-o", "first.png")[0] == 0
+    cli_folder.chmod(0o777)
     (cli_folder / "shut").mkdir()
     (cli_folder / "shut").chmod(0o555)
     (cli_folder / "kept.png").write_bytes(b"kept")
     (cli_folder / "kept.png").chmod(0o444)
     for name in ("shut/out.png", "kept.png"):
-        assert_refused(run_cli(*COLORIZE, "-o", name), 1, f"{name}: cannot be written")
+        with as_nobody():
+            outcome = run_cli(*COLORIZE, "-o", name)
+        assert_refused(outcome, 1, f"{name}: cannot be written")
     assert (cli_folder / "kept.png").read_bytes() == b"kept"
 
 
