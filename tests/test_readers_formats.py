@@ -1,5 +1,6 @@
 """Formats beside PTX, E57 and image pairs: organized PCD, PLY with a grid, NumPy arrays, texts of points."""
 
+import errno
 import struct
 
 import numpy as np
@@ -160,6 +161,31 @@ def test_arrays_of_points_are_a_grid(tmp_path):
         np.testing.assert_array_equal(scan.color, COLOR)
     np.save(tmp_path / "hall.npy", np.dstack([HALL, NAMES]))
     np.testing.assert_array_equal(read_scans(tmp_path / "hall.npy")[0].reflectance, NAMES)
+
+
+def test_arrays_behind_a_password_are_said_to_be(tmp_path):
+    save(tmp_path, xyz=HALL, reflectance=NAMES)
+    data = bytearray((tmp_path / "hall.npz").read_bytes())
+    # The flag of each member, at its own header and in the directory at the end.
+    for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        at = data.find(mark)
+        while at >= 0:
+            data[at + offset] |= 1
+            at = data.find(mark, at + 1)
+    (tmp_path / "hall.npz").write_bytes(data)
+    with pytest.raises(ScanError, match=r"hall.npz: is encrypted; save it without a password"):
+        read_scans(tmp_path / "hall.npz")
+
+
+def test_a_disk_that_fails_is_no_damaged_file(tmp_path, monkeypatch):
+    np.save(tmp_path / "hall.npy", np.dstack([HALL, NAMES]))
+
+    def failing(*_, **__):
+        raise OSError(errno.EIO, "Input/output error")
+
+    monkeypatch.setattr(np.lib.format, "read_array", failing)
+    with pytest.raises(ScanError, match=r"hall.npy: cannot be read \(Input/output error\)"):
+        read_scans(tmp_path / "hall.npy")
 
 
 @pytest.mark.parametrize("by_pixel", [False, True])

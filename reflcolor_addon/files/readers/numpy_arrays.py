@@ -24,10 +24,11 @@ _MOST_MEMBERS = 256
 _PACKED_AT_MOST = 1100
 _PACKED_BY = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _DAMAGED = (
-    *(ValueError, KeyError, TypeError, EOFError, OSError, NotImplementedError, RuntimeError),
+    *(ValueError, KeyError, TypeError, EOFError, NotImplementedError),
     *(SyntaxError, tokenize.TokenError, struct.error, zlib.error, zipfile.BadZipFile),
 )
-"""What NumPy and zipfile raise where a file is not whole."""
+"""What NumPy and zipfile raise where a file is not whole; a disk that fails is an OSError, and the gate's to say."""
+_ENCRYPTED = 1
 
 
 def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -150,6 +151,8 @@ def _arrays(file, path):
                 raise ScanError("{file}: holds {count:,} arrays", file=path.name, count=len(members))
             if sum(member.file_size for member in members) > _PACKED_AT_MOST * size_of(file):
                 raise ScanError("{file}: claims to hold more than a file of its size can", file=path.name)
+            if any(member.flag_bits & _ENCRYPTED for member in members):
+                raise ScanError("{file}: is encrypted; save it without a password", file=path.name)
             if any(member.compress_type not in _PACKED_BY for member in members):
                 raise ScanError("{file}: is packed in a way that NumPy does not use", file=path.name)
             found = {}
@@ -162,11 +165,11 @@ def _arrays(file, path):
             return found
     except ScanError:
         raise
-    except _DAMAGED:
+    except _DAMAGED as error:
         # What they say is about Python, and quotes the file at length.
         raise ScanError(
             "{file}: it is damaged or cut short, or holds something else than arrays of numbers", file=path.name
-        ) from None
+        ) from error
 
 
 def _named(array):
