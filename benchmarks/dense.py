@@ -32,7 +32,7 @@ from reflcolor_addon.color.evaluation import error_map
 from reflcolor_addon.color.observed import Observed
 from reflcolor_addon.files.images import read_image, write_png
 from reflcolor_addon.matching import Shot, match_photos, match_site, texture
-from reflcolor_addon.matching.match import opened_photos
+from reflcolor_addon.matching.opened_photos import opened_photos
 from reflcolor_addon.matching.photo_image import PhotoImage
 from reflcolor_addon.matching.transfer.occlusion import DepthBuffer
 from reflcolor_addon.matching.transfer.surface import GridSurface

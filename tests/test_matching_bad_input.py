@@ -7,7 +7,7 @@ import pytest
 
 from reflcolor_addon import ImageError, Settings
 from reflcolor_addon.matching import draw_matches, match_photos, match_seeds
-from reflcolor_addon.matching.match import opened_photos
+from reflcolor_addon.matching.opened_photos import opened_photos
 
 AS_PUBLISHED = Settings(matching="paper", slic_segments=60)
 

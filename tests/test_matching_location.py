@@ -7,7 +7,7 @@ import painted_room
 import pytest
 
 from reflcolor_addon import Seeds
-from reflcolor_addon.matching.match import opened_photos
+from reflcolor_addon.matching.opened_photos import opened_photos
 from reflcolor_addon.matching.registration import location
 from reflcolor_addon.matching.registration.registration import Registration, ScanViews
 

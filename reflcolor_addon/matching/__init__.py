@@ -1,8 +1,8 @@
 """Method 2: seeds from photos, found by the program."""
 
 from .draw import draw_matches
-from .match import Matching, PhotoMatch, match_photos, match_seeds, match_site, shots_of
-from .transfer.texture import LARGEST, Shot, texture, texture_shape
+from .match import Matching, PhotoMatch, match_photos, match_seeds, match_site
+from .transfer.texture import LARGEST, Shot, shots_of, texture, texture_shape
 
 __all__ = [
     "LARGEST",

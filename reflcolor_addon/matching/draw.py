@@ -5,6 +5,7 @@ import numpy as np
 from ..scan.scan import Scan
 from ..seeds.seeds import Seeds
 from ..seeds.sources import SOURCES
+from .opened_photos import opened_photos
 from .photo_image import Photos
 from .scan_image import pixel_steps, toned
 from .superpixels import sized
@@ -39,8 +40,6 @@ def draw_matches(scan: Scan, photos: Photos, seeds: Seeds) -> np.ndarray:
     (720, 2168, 3)
     """
     import cv2
-
-    from .match import opened_photos
 
     opened = opened_photos(photos)
     own = _shown(scan)

@@ -2,28 +2,22 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
 from ..color.observed import Observed
-from ..errors import Cancelled, ImageError, SeedsError
-from ..files.photo import Photo
-from ..files.photo_files import photos_of
-from ..messages import Message
+from ..errors import Cancelled, SeedsError
 from ..progress import IsCancelled, Progress
 from ..scan.scan import Scan, require_scan
 from ..seeds.seeds import Seeds
 from ..settings import Settings, settings_or_default
 from . import site
-from .photo_image import PhotoImage, Photos
-from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
-from .scan_image import toned
-from .transfer.texture import Shot
+from .opened_photos import opened_photos
+from .photo_image import Photos
+from .published.seeds import published_seeds
 
-_LEAST_SIDE = 16
 _LEAST_CHROMA = 6
-_TWICE = "another photo has the same name; give each photo once, and another name to one of two"
+_AS_PUBLISHED = "matched by appearance, as published"
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,7 +224,8 @@ def match_site(
         progress(fraction, text)
 
     if settings.matching == "paper":
-        matchings = [_as_published(scan, opened, settings, step) for scan in scans]
+        notes = tuple(PhotoMatch(photo.name, False, None, None, _AS_PUBLISHED) for photo in opened)
+        matchings = [Matching(published_seeds(scan, opened, settings, step), notes, ()) for scan in scans]
     else:
         matchings = [
             Matching(seeds, tuple(map(_report, opened, locations)), tuple(warnings), observed)
@@ -246,86 +241,6 @@ def match_site(
         )
         for matching, picked, stays in zip(matchings, hand, kept, strict=True)
     ]
-
-
-def opened_photos(photos, warnings=None):
-    """Return a `PhotoImage` for each photo: a path, a `Photo`, an array, or a name and an array.
-
-    The path of an E57 stands for all photos inside.
-
-    ``warnings``, a list, gets what a person should know of a file.
-
-    Raises
-    ------
-    ImageError
-        If a photo cannot be read, or is too small.
-    """
-    if isinstance(photos, str | Path | Photo) or (isinstance(photos, np.ndarray) and photos.ndim == 3):
-        photos = [photos]
-    names = names_of_files([photo for photo in photos if isinstance(photo, str | Path)])
-    opened = []
-    for number, given in enumerate(photos, 1):
-        for photo in _photos(given, number, names, warnings):
-            rgb = photo.rgb
-            if rgb.ndim != 3 or rgb.shape[2] != 3 or rgb.dtype != np.uint8:
-                raise ImageError(
-                    "{photo}: expected (H, W, 3) uint8, found {shape} {dtype}",
-                    photo=photo.name,
-                    shape=rgb.shape,
-                    dtype=rgb.dtype,
-                )
-            if min(rgb.shape[:2]) < _LEAST_SIDE:
-                raise ImageError(
-                    "{photo}: has {width} x {height} pixels, expected at least {least} on each side",
-                    photo=photo.name,
-                    width=rgb.shape[1],
-                    height=rgb.shape[0],
-                    least=_LEAST_SIDE,
-                )
-            if any(photo.name == other.name for other in opened):
-                raise ImageError(
-                    "{photo}: {problem}",
-                    photo=given if isinstance(given, str | Path) else photo.name,
-                    problem=Message(_TWICE),
-                )
-            opened.append(PhotoImage(photo.name, rgb, photo.place))
-    return opened
-
-
-def _photos(given, number, names, warnings):
-    """The `Photo` of whatever was given as one; of an E57 all that are inside."""
-    if isinstance(given, Photo):
-        return [given]
-    if isinstance(given, np.ndarray):
-        return [Photo(name=f"photo {number}", rgb=given)]
-    if isinstance(given, tuple):
-        return [Photo(name=given[0], rgb=given[1])]
-    # Photos inside an E57 have names of their own.
-    photos, name = photos_of(given, warnings), Path(given).name
-    return [replace(photo, name=names[str(given)]) if photo.name == name else photo for photo in photos]
-
-
-def names_of_files(paths):
-    """Return what photos are called: the name of the file, and where several have it, as many folders as it takes.
-
-    Parameters
-    ----------
-    paths : sequence of path-like
-
-    Returns
-    -------
-    dict of str to str
-        By the path as text, with slashes: "hall.jpg", or "2019/hall.jpg" and "2021/hall.jpg".
-    """
-    parts = {str(path): Path(path).absolute().parts for path in paths}
-    names = {}
-    for text, own in parts.items():
-        others = [other for key, other in parts.items() if key != text and other != own]
-        count = 1
-        while count < len(own) and any(other[-count:] == own[-count:] for other in others):
-            count += 1
-        names[text] = "/".join(own[-count:])
-    return names
 
 
 def joined(*groups):
@@ -355,25 +270,6 @@ def _placed(seeds, scans):
     ]
 
 
-def shots_of(photos, matching):
-    """Return a `Shot` of every photo that was recognized, None for the others: what `texture` takes.
-
-    Parameters
-    ----------
-    photos : sequence
-        As `match_photos` was given them.
-    matching : Matching or None
-        None where nothing was sought in them.
-    """
-    if matching is None or not any(found.verified for found in matching.photos):
-        return []
-    opened = opened_photos(photos)
-    return [
-        Shot(photo, found.model) if found.verified else None
-        for photo, found in zip(opened, matching.photos, strict=True)
-    ]
-
-
 def _picked(seeds):
     return replace(seeds, confidence=np.ones(len(seeds)), reason=("hand",) * len(seeds))
 
@@ -386,30 +282,3 @@ def _report(photo, location):
     model = location.registration.model if location.verified else None
     share = location.registration.evidence.share
     return PhotoMatch(photo.name, location.verified, model, location.reason, location.note, share, location.tested)
-
-
-def _as_published(scan, photos, settings, step):
-    step(0.05, "Superpixels of the scan")
-    image = square_image(scan, toned(scan, "percentiles"))
-    own = described_scan(scan, image, scan_superpixels(scan, image, settings), settings)
-    others = []
-    for index, photo in enumerate(photos):
-        step(0.3 + 0.5 * index / len(photos), f"Superpixels of {photo.name}")
-        others.append(described_photo(photo.rgb, max(image.shape), settings))
-    step(0.85, "Comparing superpixels")
-    matches = hog_matches(own, others)
-    rows, cols = own.superpixels.centers.T
-    xy = matches.xy * np.array([(photo.width, photo.height) for photo in photos])[matches.photo]
-    seeds = Seeds(
-        rows=image.rows[rows],
-        cols=image.cols[cols],
-        rgb=matches.rgb,
-        photos=tuple(photos[index].name for index in matches.photo),
-        photo_xy=xy,
-        confidence=matches.similarity,
-        reason=("appearance",) * len(rows),
-    )
-    reports = tuple(
-        PhotoMatch(photo.name, False, None, None, "matched by appearance, as published") for photo in photos
-    )
-    return Matching(seeds, reports, ())

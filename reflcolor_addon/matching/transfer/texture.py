@@ -11,6 +11,7 @@ import numpy as np
 
 from ...errors import Cancelled
 from ...srgb import linear_to_srgb8, srgb8_to_linear
+from ..opened_photos import opened_photos
 from ..photo_image import PhotoImage
 from ..scan_image import pixel_steps
 from .surface import GridSurface
@@ -192,3 +193,22 @@ def _nearest_return(valid):
     place = np.zeros(label.max() + 1, np.int64)
     place[label[valid]] = own[valid]
     return place[label]
+
+
+def shots_of(photos, matching):
+    """Return a `Shot` of every photo that was recognized, None for the others: what `texture` takes.
+
+    Parameters
+    ----------
+    photos : sequence
+        As `match_photos` was given them.
+    matching : Matching or None
+        None where nothing was sought in them.
+    """
+    if matching is None or not any(found.verified for found in matching.photos):
+        return []
+    opened = opened_photos(photos)
+    return [
+        Shot(photo, found.model) if found.verified else None
+        for photo, found in zip(opened, matching.photos, strict=True)
+    ]
