@@ -7,7 +7,8 @@ from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..reflcolor_addon.files.photo_files import photos_of
-from ..reflcolor_addon.seeds.seeds import Seeds, find_photo
+from ..reflcolor_addon.seeds.seeds import Seeds
+from ..reflcolor_addon.seeds.seeds_file import find_photo
 from .scene import polls
 from .scene.notices import tell
 from .scene.photo_colors import keep_observed

@@ -10,7 +10,8 @@ from small_scans import random_scan, scan_from_ranges
 
 from reflcolor_addon import ImageError, OutputError, Seeds, SeedsError
 from reflcolor_addon.files.images import write_png
-from reflcolor_addon.seeds.seeds import nearest_valid, sample_photo
+from reflcolor_addon.seeds.seeds import nearest_valid
+from reflcolor_addon.seeds.seeds_file import sample_photo
 
 PHOTO = np.arange(4 * 6 * 3, dtype=np.uint8).reshape(4, 6, 3)
 

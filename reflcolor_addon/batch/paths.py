@@ -7,7 +7,7 @@ from pathlib import Path
 from ..errors import OutputError, ScanError, UsageError
 from ..files.atomic import require_writable
 from ..files.readers.scan_json import load_description
-from ..seeds.seeds import find_photo
+from ..seeds.seeds_file import find_photo
 
 
 def scan_files(path):
