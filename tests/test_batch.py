@@ -1,25 +1,38 @@
 """A batch: every scan is colorized, nothing twice, one scan's fault never costs another."""
 
 import csv
+import io
 import json
 import os
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import MISSING, fields
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
-from archives import make_archive, outputs_of
+from archives import HEAD, make_archive, outputs_of
 from command_line import process_line, run_process
+from small_scans import random_scan
 
-from reflcolor_addon import Seeds
+from reflcolor_addon import Seeds, Settings, read_scans
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.pairs import COLUMNS, read_pairs, write_pairs
+from reflcolor_addon.batch.archive.workers import Workers
+from reflcolor_addon.batch.plan import IMAGE, Output, Plan
+from reflcolor_addon.batch.plan_document import as_document, from_document
+from reflcolor_addon.batch.read import safe_label
 from reflcolor_addon.cli.main import main
 from reflcolor_addon.errors import UsageError
+from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.readers.options import ReadOptions
+from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.report.provenance import read_report
 from reflcolor_addon.report.verification import WHOLE, verify_outputs
+from reflcolor_addon.view.picture import Picture
 
 COUNT, SHAPE = 4, (60, 90)
 
@@ -240,3 +253,95 @@ def test_reports_of_a_batch_name_their_outputs(archive, batch):
         "hall_0.json",
     ]
     assert sys.version.split()[0] == report["versions"]["python"]
+
+
+def test_a_scan_that_cannot_be_read_fails_also_where_photos_are_looked_for(archive, batch):
+    (archive / "hall_0.ptx").write_text("no scan\n")
+    write_png(archive / "a.png", np.random.default_rng(0).integers(0, 256, (40, 60, 3)).astype(np.uint8))
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_0.ptx"\nphotos = "a.png"\n', encoding="utf-8")
+    status, out, err = batch("--keep-going")
+    assert status == 1 and "1 failed: hall_0" in err.replace("1 of 1 failed", "1 failed"), out + err
+    assert "hall_0.ptx: line 1" in table(archive)["hall_0"]["note"]
+
+
+def test_a_scan_that_no_photo_shows_any_more_is_told_so(archive, batch):
+    batch()
+    folder = BatchFolder(Path("colored"))
+    folder.remember("items", "hall_1", {"outcome": "unshown", "error": "", "left_out": ["hall_1"]})
+    assert main(["report", "colored"]) == 0
+    assert table(archive)["hall_1"]["state"] == "unshown"
+
+
+def test_a_damaged_report_costs_no_other_its_place_on_the_page(archive, batch):
+    batch()
+    path = archive / "colored" / "reports" / "hall_1.json"
+    report = json.loads(path.read_text(encoding="utf-8"))
+    report["settings"] = "none"
+    path.write_text(json.dumps(report), encoding="utf-8")
+    assert main(["report", "colored"]) == 0
+    rows = table(archive)
+    assert [rows[f"hall_{number}"]["state"] for number in range(3)] == ["done", "failed", "done"]
+
+
+def test_seeds_of_each_scan_of_a_file_count_for_what_was_done(archive, batch):
+    one, two = (random_scan(number, (12, 16)) for number in range(2))
+    write_ptx([one, two], archive / "pair.ptx")
+    names = [scan.name for scan in read_scans(archive / "pair.ptx")]
+    labels = [f"pair+{safe_label(name)}" for name in names]
+    for label in labels:
+        Seeds([1], [2], [[200, 80, 40]]).save(archive / f"{label}.seeds.json")
+    text = HEAD + '[[scan]]\nfile = "pair.ptx"\nseeds = "{scan}.seeds.json"\n'
+    (archive / "batch.toml").write_text(text, encoding="utf-8")
+    assert batch()[0] == 0
+    assert "0 done, 1 done before" in batch("--resume")[1]
+    Seeds([1], [2], [[20, 80, 240]]).save(archive / f"{labels[1]}.seeds.json")
+    assert "1 done, 0 done before" in batch("--resume")[1]
+
+
+def test_a_plan_comes_whole_out_of_its_document():
+    plan = Plan(
+        scans=(Path("a.ptx"), Path("b.ptx")),
+        outputs=(Output("write", Path("{scan}.png"), IMAGE),),
+        settings=Settings.preset("Natural", alpha=5),
+        wanted="2",
+        name="hall",
+        seeds=Path("s.json"),
+        hand=Path("h.json"),
+        from_color=7,
+        photos=(Path("p.jpg"),),
+        colors=Path("c.png"),
+        outside_files=True,
+        reading=ReadOptions(turn_deg=90, step=2, position=(1.0, 2.0, 3.0)),
+        texture=512,
+        picture=Picture(look="lit", filled=False),
+        left_out=("hall+2",),
+        skip_unshown=True,
+    )
+    assert all(getattr(plan, field.name) != field.default for field in fields(plan) if field.default is not MISSING)
+    assert from_document(json.loads(json.dumps(as_document(plan)))) == plan
+
+
+class _Worker:
+    """What `Workers` sees of a process."""
+
+    def __init__(self, in_blender):
+        self.in_blender, self.task = in_blender, None
+        self.process = SimpleNamespace(stdin=io.StringIO())
+
+
+def test_a_worker_that_was_sent_home_gets_no_work(monkeypatch):
+    pool = Workers(count=2, threads=1, memory=0, blender=("blender",), cancelled=lambda: False)
+    pool._processes = [_Worker(False), _Worker(False)]
+
+    def started(in_blender):
+        pool._processes.append(_Worker(in_blender))
+        return pool._processes[-1]
+
+    monkeypatch.setattr(pool, "_started", started)
+    first = pool._idle(True)
+    first.task = "a scene"
+    assert pool._processes[0].process.stdin.closed
+    assert pool._idle(False) is pool._processes[1]
+    pool._processes[1].task = "an image"
+    # Two are at work, and the third is about to end.
+    assert [worker.process.stdin.closed for worker in pool._processes] == [True, False, False]

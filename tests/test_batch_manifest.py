@@ -66,6 +66,18 @@ def test_scans_of_one_site_are_one_item(folder):
     assert [path.name for path in item.plan.scans] == ["hall_0.ptx", "hall_2.ptx"]
 
 
+def test_a_site_takes_what_any_of_its_scans_says_and_refuses_what_they_disagree_on(folder):
+    table = '[[scan]]\nfile = "hall_{}.ptx"\nsite = "hall"\n'
+    text = HEAD + 'photos = "photos/a.png"\n' + table.format(0) + table.format(2)
+    manifest, faults = read(folder, text + 'preset = "Paper"\nwrite = ["glb"]\n')
+    assert faults == []
+    assert manifest.items[0].plan.settings.light == 0
+    assert manifest.items[0].plan.outputs[0].path.suffix == ".glb"
+    first = HEAD + 'photos = "photos/a.png"\n' + table.format(0) + 'preset = "Natural"\n' + table.format(2)
+    _, faults = read(folder, first + 'preset = "Paper"\nscan = "1"\n')
+    assert [fault[: fault.index(": ", 9)] for fault in faults] == ["line 13: scan", "line 12: preset"]
+
+
 def test_scans_of_one_name_in_different_folders_get_names_of_their_own(folder):
     for name in ("east", "west"):
         (folder / name).mkdir()

@@ -25,5 +25,9 @@ def test_a_scene_and_a_rendered_picture(blender_command, tmp_path):
     assert report["versions"]["blender"]
     with (colored / "report.csv").open(encoding="utf-8", newline="") as file:
         assert [row["state"] for row in csv.DictReader(file)] == ["done"]
+    made = [colored / f"hall_0{end}" for end in (".blend", ".png", " render.png")]
+    made += [colored / "reports" / f"hall_0{end}" for end in (".jpg", ".json")]
+    times = [file.stat().st_mtime_ns for file in made]
     again = blender_command("batch", path, "--jobs", "1", "--resume", cwd=tmp_path)
     assert again.returncode == 0 and "1 done before" in again.stdout
+    assert [file.stat().st_mtime_ns for file in made] == times

@@ -1,5 +1,6 @@
 """Files that a run reads and writes: known before the work begins, so that nothing is found out at its end."""
 
+import glob
 import os
 from contextlib import contextmanager
 from pathlib import Path
@@ -8,6 +9,7 @@ from ..errors import OutputError, ScanError, UsageError
 from ..files.atomic import require_writable
 from ..files.readers.scan_json import load_description
 from ..seeds.seeds_file import find_photo
+from .plan import PLACEHOLDER, filled
 
 
 def scan_files(path):
@@ -49,6 +51,28 @@ def photo_files(seeds, seeds_path, photos):
     """
     named = (find_photo(name, seeds_path, photos) for name in seeds.photos if name is not None)
     return list(dict.fromkeys([*map(Path, photos), *(path for path in named if path is not None)]))
+
+
+def files_of_each(path, name):
+    """Return the files that a path means for the scans of one item of a batch, as far as they are there.
+
+    Parameters
+    ----------
+    path : Path
+        With the placeholder, or a file of its own.
+    name : str
+        The item's; several scans of it have labels that begin with it and a plus sign (see `read.read_jobs`).
+
+    Returns
+    -------
+    list of Path
+    """
+    several = []
+    if PLACEHOLDER in str(path):
+        anchor = Path(path.anchor)
+        pattern = glob.escape(str(path.relative_to(anchor))).replace(PLACEHOLDER, f"{glob.escape(name)}+*")
+        several = sorted(anchor.glob(pattern))
+    return [found for found in (filled(path, name), *several) if found.is_file()]
 
 
 def output_faults(outputs, inputs):

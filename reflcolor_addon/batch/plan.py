@@ -94,6 +94,8 @@ class Plan:
         Texels along the longer side of an image of the photos' resolution; without it colors are at the vertices.
     picture : Picture
         How scenes and pictures show the scans.
+    left_out : tuple of str
+        Labels of scans that are left out.
     skip_unshown : bool
         Whether scans for which no seeds are found are left out, instead of refused.
     """
@@ -112,6 +114,7 @@ class Plan:
     reading: ReadOptions = AS_IT_IS
     texture: int | None = None
     picture: Picture = field(default_factory=Picture)
+    left_out: tuple[str, ...] = ()
     skip_unshown: bool = False
 
     @property

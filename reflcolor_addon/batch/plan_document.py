@@ -1,8 +1,11 @@
 """A plan as JSON: so it goes from one process to another, and so it is told whether it was done already."""
 
+from dataclasses import asdict
 from pathlib import Path
 
+from ..files.readers.options import ReadOptions
 from ..settings import Settings
+from ..view.picture import Picture
 from .plan import Output, Plan
 
 
@@ -18,13 +21,21 @@ def as_document(plan):
         "hand": None if plan.hand is None else str(plan.hand),
         "photos": [str(path) for path in plan.photos],
         "colors": None if plan.colors is None else str(plan.colors),
+        "from_color": plan.from_color,
         "outside_files": plan.outside_files,
+        "reading": plan.reading.as_dict(),
+        "texture": plan.texture,
+        "picture": asdict(plan.picture),
+        "left_out": list(plan.left_out),
         "skip_unshown": plan.skip_unshown,
     }
 
 
 def from_document(document):
     """Return the `Plan` that `as_document` described."""
+    reading = document["reading"]
+    if reading.get("position") is not None:
+        reading = reading | {"position": tuple(reading["position"])}
     return Plan(
         scans=tuple(map(Path, document["scans"])),
         outputs=tuple(Output(option, Path(path), kind) for option, path, kind in document["outputs"]),
@@ -35,6 +46,11 @@ def from_document(document):
         hand=None if document["hand"] is None else Path(document["hand"]),
         photos=tuple(map(Path, document["photos"])),
         colors=None if document["colors"] is None else Path(document["colors"]),
+        from_color=document["from_color"],
         outside_files=document["outside_files"],
+        reading=ReadOptions(**reading),
+        texture=document["texture"],
+        picture=Picture(**document["picture"]),
+        left_out=tuple(document["left_out"]),
         skip_unshown=document["skip_unshown"],
     )

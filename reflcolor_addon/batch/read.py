@@ -35,6 +35,7 @@ def read_jobs(plan, given, session, times):
     with timed(times, "read"):
         jobs = _scan_jobs(plan, session)
     check_placeholder(plan, len(jobs))
+    jobs = [job for job in jobs if job.label not in plan.left_out]
     if plan.seeds is not None:
         with timed(times, "seeds"):
             _add_seeds(jobs, plan, given, session)

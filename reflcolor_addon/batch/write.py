@@ -1,16 +1,23 @@
 """Writes what a run has made: each scan's own files, then scenes that hold all scans, reports last."""
 
-import json
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..files.atomic import written_atomically
 from ..files.images import png_bytes, write_jpeg, write_png
 from ..files.writers import MESH_WRITERS
 from ..files.writers.scans_back import ColoredScan, write_scans_back
 from ..matching import draw_matches
 from ..messages import Message
-from ..report.report import REPORT_OPTION, build_report, input_entry, output_entry, photo_entry, scan_entry, stamped
+from ..report.report import (
+    REPORT_OPTION,
+    build_report,
+    input_entry,
+    output_entry,
+    photo_entry,
+    scan_entry,
+    stamped,
+    write_report,
+)
 from ..view.preview import preview
 from .paths import tracked
 from .plan import IMAGE, MATCHES, MESH, PREVIEW, RENDER, REPORT, SCANS, SCENE, SEEDS
@@ -101,7 +108,7 @@ class _Writer:
         self._tell(output)
         with timed(job.times, "write"):
             outputs = [self._output_entry(entry, output.path) for entry in job.report["outputs"]]
-        _write_json(output.path, job.report | {"outputs": outputs, "times_s": job.times})
+        write_report(output.path, job.report | {"outputs": outputs, "times_s": job.times})
 
     def _output_entry(self, entry, report_path):
         """What a report says of one of its outputs; of itself only where it is."""
@@ -177,10 +184,3 @@ def _write_matches(job, plan, path):
 
 
 _SEED_WRITERS = {SEEDS: _write_seeds, MATCHES: _write_matches}
-
-
-def _write_json(path, document):
-    text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    with written_atomically(path) as temporary:
-        # A file name that is no text comes out as JSON's own escapes.
-        temporary.write_bytes(text.encode("utf-8", "backslashreplace"))

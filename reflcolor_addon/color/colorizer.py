@@ -319,9 +319,9 @@ class Colorizer:
         return Spread(np.moveaxis(spread, 0, -1), confidence, mean.nearest_seed, method)
 
     def _directions(self, pixels):
-        """(S, 3): unit vectors."""
+        """(S, 3): unit vectors; 0 at the scanner's own place."""
         points = self.scan.points.reshape(-1, 3)[pixels]
-        return points / np.linalg.norm(points, axis=1, keepdims=True)
+        return points / np.maximum(np.linalg.norm(points, axis=1, keepdims=True), 1e-12)
 
     def _use(self, settings):
         """Take over settings; what they make void is dropped."""

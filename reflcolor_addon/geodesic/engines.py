@@ -31,15 +31,7 @@ class NativeEngine:
 
     def __init__(self, graph):
         self.shape = graph.shape
-        self._graph = kernel.Graph(
-            graph.luminance,
-            graph.range_image,
-            graph.valid,
-            beta=graph.beta,
-            neighbors=graph.neighbors,
-            wrap=graph.wrap,
-            step_cost=graph.step_cost,
-        )
+        self._graph = kernel.Graph.of(graph)
 
     def control(self):
         """Return what can cancel a running call."""

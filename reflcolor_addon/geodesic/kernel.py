@@ -34,6 +34,7 @@ from ..native.library import (
     available,
     check,
     library,
+    library_file,
     pointer_to,
     reason,
 )
@@ -48,6 +49,7 @@ __all__ = [
     "Nearest",
     "available",
     "field",
+    "library_file",
     "nearest",
     "reason",
 ]
@@ -120,6 +122,19 @@ class Graph:
             raise ReflcolorError("luminance and range must be finite at every valid pixel, found NaN or infinity")
         check(code)
         self._c = CGraph(height, width, neighbors, wrap, beta, step_cost, address(self._y), address(self._d))
+
+    @classmethod
+    def of(cls, graph):
+        """Return that of a `PixelGraph`."""
+        return cls(
+            graph.luminance,
+            graph.range_image,
+            graph.valid,
+            beta=graph.beta,
+            neighbors=graph.neighbors,
+            wrap=graph.wrap,
+            step_cost=graph.step_cost,
+        )
 
     @property
     def nbytes(self):

@@ -36,16 +36,7 @@ def spread(graph, pixels, values, *, count, alpha, control=None):
     """
     values = np.asarray(values, np.float32)
     if kernel.available():
-        native = kernel.Graph(
-            graph.luminance,
-            graph.range_image,
-            graph.valid,
-            beta=graph.beta,
-            neighbors=graph.neighbors,
-            wrap=graph.wrap,
-            step_cost=graph.step_cost,
-        )
-        found = kernel.nearest(native, pixels, min(count, len(pixels)), control=control)
+        found = kernel.nearest(kernel.Graph.of(graph), pixels, min(count, len(pixels)), control=control)
         mean, _ = found.blend(values, alpha, control=control)
         return np.moveaxis(mean.values, 0, -1), mean.least
     from scipy.sparse.csgraph import dijkstra

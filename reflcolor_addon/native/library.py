@@ -6,6 +6,7 @@ through ctypes, so that the interpreter is free while it runs and threads of Pyt
 
 import ctypes
 import functools
+from pathlib import Path
 
 import numpy as np
 
@@ -103,6 +104,15 @@ def _load():
     if version != ABI_VERSION:
         return None, f"the kernel has interface {version}, this version needs {ABI_VERSION}"
     return library, None
+
+
+def library_file():
+    """The path of the kernel that loaded; None where none did."""
+    if not available():
+        return None
+    import reflcolor_kernel
+
+    return Path(reflcolor_kernel.library_path())
 
 
 def available():

@@ -1,10 +1,7 @@
 """A report that gets to know of one more output, made later."""
 
-import json
-
-from ..files.atomic import written_atomically
 from .provenance import read_report
-from .report import REPORT_OPTION, output_entry
+from .report import REPORT_OPTION, output_entry, write_report
 
 
 def add_output(report_path, option, path):
@@ -28,6 +25,4 @@ def add_output(report_path, option, path):
     # What a report says of itself stays at the end.
     place = next((k for k, other in enumerate(outputs) if other["option"] == REPORT_OPTION), len(outputs))
     outputs.insert(place, entry)
-    text = json.dumps(report | {"outputs": outputs}, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    with written_atomically(report_path) as temporary:
-        temporary.write_bytes(text.encode("utf-8", "backslashreplace"))
+    write_report(report_path, report | {"outputs": outputs})

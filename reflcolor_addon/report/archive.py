@@ -16,7 +16,9 @@ from ..view.colormaps import UNKNOWN
 from ..view.preview import GUESS, INFERRED, OBSERVED, TILES
 from .provenance import outline, read_report
 
+REPORTS, PAGE, TABLE = "reports", "report.html", "report.csv"
 STATE, ITEMS = "batch-state", "items"
+"""Where a batch's folder holds the reports, this page, its table, and what became of the items."""
 _COLUMNS = (
     "scan",
     "state",
@@ -64,7 +66,7 @@ def write_page(root, session):
         If they cannot be written.
     """
     entries = _entries(root, session)
-    page, table = root / "report.html", root / "report.csv"
+    page, table = root / PAGE, root / TABLE
     with written_atomically(page) as temporary:
         temporary.write_text(_page(root, entries), encoding="utf-8", errors="xmlcharrefreplace")
     text = io.StringIO(newline="")
@@ -78,19 +80,20 @@ def write_page(root, session):
 
 def _entries(root, session):
     """What is to be told of each scan, by name."""
-    paths = sorted((root / "reports").glob("*.json"))
+    paths = sorted((root / REPORTS).glob("*.json"))
     entries, items = {}, _items(root)
     for number, path in enumerate(paths):
         session.progress(number / len(paths), path.name)
         try:
             entries[path.stem] = _of_report(path, read_report(path))
-        except (ReflcolorError, KeyError, TypeError, ValueError) as error:
+        except (ReflcolorError, AttributeError, KeyError, TypeError, ValueError) as error:
             problem = str(error) if isinstance(error, ReflcolorError) else "it lacks a part"
             entries[path.stem] = _entry(path.stem, "failed", note=f"its report cannot be used: {problem}")
     for name, item in items.items():
         left_out = item.get("left_out") or []
         for label in left_out:
-            entries.setdefault(label, _entry(label, "unshown", note="no photo shows this scan"))
+            # A report of it is of an earlier time, when a photo did.
+            entries[label] = _entry(label, "unshown", note="no photo shows this scan")
         if item.get("outcome") == "failed":
             own = [label for label in entries if label == name or label.startswith(f"{name}+")]
             for label in own or [name]:
@@ -113,7 +116,7 @@ def _items(root):
 
 
 def _entry(scan, state, **more):
-    return dict.fromkeys(_COLUMNS, "") | {"scan": scan, "state": state, "report": None, "preview": None} | more
+    return dict.fromkeys(_COLUMNS, "") | {"scan": scan, "state": state, "details": "", "preview": None} | more
 
 
 def _of_report(path, report):
@@ -134,7 +137,7 @@ def _of_report(path, report):
         warnings=len(warnings),
         seconds=round(sum(report.get("times_s", {}).values()), 1),
         note="; ".join(warnings),
-        report=report,
+        details=_details(report),
         preview=preview if preview.is_file() else None,
     )
 
@@ -174,7 +177,7 @@ def _row(entry):
         _number("Photos", entry["verified_photos"], photos),
         _number("Warnings", entry["warnings"], str(entry["warnings"])),
         _number("Seconds", entry["seconds"], str(entry["seconds"])),
-        f'<td data-label="Details">{_details(entry)}</td>',
+        f'<td data-label="Details">{_details_of(entry)}</td>',
     ]
     return f'<tr data-state="{" ".join(filter(None, states))}">{"".join(cells)}</tr>'
 
@@ -208,10 +211,13 @@ def _tiles(entry):
     return f'<div class="tiles" style="{style}">{tiles}</div>'
 
 
-def _details(entry):
-    report = entry["report"]
-    if report is None:
-        return f"<p>{escape(entry['note'])}</p>" if entry["note"] else ""
+def _details_of(entry):
+    note = f"<p>{escape(entry['note'])}</p>" if entry["note"] and not entry["warnings"] else ""
+    return note + entry["details"]
+
+
+def _details(report):
+    """What unfolds below a scan; raises what a report that lacks a part lets it raise."""
     told = outline(report)
     parts = []
     if report["warnings"]:
@@ -219,7 +225,7 @@ def _details(entry):
     if report["photos"]:
         parts.append("<p>Photos</p>" + _list(f"{photo['name']}: {photo['note']}" for photo in report["photos"]))
     facts = {
-        "Grid": f"{entry['columns']} x {entry['rows']} pixels",
+        "Grid": f"{report['scan']['columns']} x {report['scan']['rows']} pixels",
         "Seeds": ", ".join(f"{count} {source}" for source, count in told.sources.items()),
         "Settings": ", ".join(f"{name} {value}" for name, value in report["settings"].items()),
         "Inputs": "; ".join(f"{role} {path} (SHA-256 {sha256})" for role, path, sha256 in told.inputs),

@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib.metadata
+import json
 import math
 import os
 import platform
@@ -9,6 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from ..errors import Cancelled
+from ..files.atomic import written_atomically
 from ..files.gate import opened, size_of
 from ..files.readers.options import AS_IT_IS
 from ..scan.normalization import PERCENTILES
@@ -124,6 +126,20 @@ def input_entry(role, path, cancelled=None):
         If ``cancelled()`` returned True.
     """
     return {"role": role, "path": str(path)} | fingerprint(path, cancelled)
+
+
+def write_report(path, report):
+    """Write a report as JSON; the file is whole or not there.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    text = json.dumps(report, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    with written_atomically(path) as temporary:
+        # A file name that is no text comes out as JSON's own escapes.
+        temporary.write_bytes(text.encode("utf-8", "backslashreplace"))
 
 
 def output_entry(option, path, report_path, cancelled=None):

@@ -40,6 +40,20 @@ def read_columns(path, photos):
     return _SeedsFile(path, photos).columns()
 
 
+def photos_named(path, photos):
+    """Return the paths of the photos that a file of seeds names, as far as they are there; none if it cannot be read.
+
+    Parameters are those of `read_columns`; the photos are not opened.
+    """
+    file = _SeedsFile(path, photos)
+    try:
+        names = [entry.get("photo") for entry in file.document()["seeds"] if isinstance(entry, dict)]
+        found = [find_photo(name, path, photos) for name in dict.fromkeys(names) if isinstance(name, str) and name]
+    except SeedsError:
+        return []
+    return [photo for photo in found if photo is not None]
+
+
 def write_seeds(seeds, path):
     """Write seeds; the file is whole or not there.
 
@@ -140,7 +154,7 @@ class _SeedsFile:
         self._images = {}
 
     def columns(self):
-        document = self._document()
+        document = self.document()
         entries = [self._entry(place, entry) for place, entry in enumerate(document["seeds"], 1)]
         rows, cols, rgb, photos, xy, confidence, reason, locked = zip(*entries, strict=True) if entries else ((),) * 8
         return {
@@ -154,7 +168,8 @@ class _SeedsFile:
             "locked": np.array(locked, bool),
         }
 
-    def _document(self):
+    def document(self):
+        """The whole document, of the right form."""
         document = read_json(self._path, "a JSON file of seeds", error=SeedsError, most=_LARGEST_FILE)
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise SeedsError('{file}: expected a JSON object with "format": "{format}"', file=self._path, format=FORMAT)

@@ -5,8 +5,8 @@ from ...files.gate import opened
 from ...files.readers import SCAN_SUFFIXES
 from ...messages import Message
 from ..check import load_seeds
-from ..paths import output_faults
-from ..plan import PLACEHOLDER, RENDER, filled
+from ..paths import files_of_each, output_faults
+from ..plan import PLACEHOLDER, RENDER
 
 
 def check_manifest(manifest, blender, refuse):
@@ -26,9 +26,9 @@ def check_manifest(manifest, blender, refuse):
 
         for path in item.plan.scans:
             _attempt(wrong, _check_scan, path)
-        for seeds in (item.plan.seeds, item.plan.hand):
-            if seeds is not None and filled(seeds, item.name).is_file():
-                _attempt(wrong, load_seeds, filled(seeds, item.name), item.plan.photos)
+        for given in filter(None, (item.plan.seeds, item.plan.hand)):
+            for path in files_of_each(given, item.name):
+                _attempt(wrong, load_seeds, path, item.plan.photos)
         needing = [output for output in item.plan.outputs if output.needs_blender]
         if needing and (blender is None or blender.command is None):
             what = "render" if needing[0].kind == RENDER else f"write {needing[0].path.suffix}"

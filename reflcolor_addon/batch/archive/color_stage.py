@@ -3,13 +3,15 @@
 from dataclasses import replace
 from pathlib import Path
 
+from ...seeds.seeds_file import photos_named
 from ..check import inputs_of
-from ..plan import IMAGE, PLACEHOLDER, RENDER, Output, filled
+from ..paths import files_of_each
+from ..plan import IMAGE, PLACEHOLDER, RENDER, Output
 from ..plan_document import as_document
 from .costs import memory_of, seconds_of
 from .options import COLOR, KNOWN, UNSHOWN
 from .pairs import NO, UNTESTED, YES, write_pairs
-from .stage import work_on
+from .stage import remember_item, work_on
 from .workers import Task
 
 
@@ -28,9 +30,13 @@ def colorize_items(context, states, photos):
         plan = color_plan(context, state.item, photos)
         if plan.seeds is None and not plan.photos:
             state.outcome, state.left_out = UNSHOWN, [state.item.name]
+            context.done.forget(state.item.name, COLOR)
+            remember_item(context, state)
             continue
         inputs = [path for _, path in inputs_of(plan, plan.scans)]
-        inputs += [filled(path, plan.name) for path in (plan.seeds, plan.hand) if path is not None]
+        for given in filter(None, (plan.seeds, plan.hand)):
+            for path in files_of_each(given, plan.name):
+                inputs += [path, *photos_named(path, plan.photos)]
         hashes = context.hashes(inputs)
         task = Task(
             name=state.item.name,

@@ -71,8 +71,10 @@ class Context:
 
         def counted(task, outcome):
             nonlocal done
+            waiting = len(tasks)
             stop = finished(task, outcome)
-            if task not in tasks:
+            # What is to be tried again was put back.
+            if len(tasks) == waiting:
                 left.add(task.cost)
                 done += 1
             return stop

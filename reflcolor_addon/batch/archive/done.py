@@ -34,8 +34,8 @@ class Done:
 
     def record(self, name, stage, key, outcome):
         """Keep that something is done: last of all, when its outputs are there."""
-        outputs = {path: [*_state(Path(path)), self._fingerprints.of(path)] for path in outcome["written"]}
-        kept = {name: outcome.get(name) for name in ("warnings", "left_out", "photos", "seconds", "peak_bytes")}
+        outputs = {path: self._output(path) for path in outcome["written"]}
+        kept = {name: outcome.get(name) for name in ("warnings", "left_out", "photos", "seconds")}
         self._folder.remember(KIND, f"{name} {stage}", {"key": key, "outputs": outputs} | kept)
 
     def recall(self, name, stage, key=None):
@@ -48,9 +48,19 @@ class Done:
             return None
         return record
 
+    def amend(self, name, stage, path):
+        """Take over into a record that one of its outputs was written anew, by a later stage."""
+        record = self._folder.recall(KIND, f"{name} {stage}")
+        if record is not None and str(path) in record["outputs"]:
+            record["outputs"][str(path)] = self._output(path)
+            self._folder.remember(KIND, f"{name} {stage}", record)
+
     def forget(self, name, stage):
         """Drop a record, before what it tells of is written again."""
         self._folder.state(KIND, f"{name} {stage}.json").unlink(missing_ok=True)
+
+    def _output(self, path):
+        return [*_state(Path(path)), self._fingerprints.of(path)]
 
     def _is_whole(self, path, told):
         path = Path(path)

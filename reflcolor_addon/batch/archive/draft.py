@@ -7,8 +7,8 @@ from pathlib import Path
 from ...errors import ReflcolorError, UsageError
 from ...files.images import IMAGE_SUFFIXES
 from ...files.readers import SCAN_SUFFIXES
+from ...report.archive import STATE
 from ..paths import scan_files
-from .folder import STATE
 
 _HEAD = """\
 # Drafted by reflcolor manifest. Look it through, change what is wrong, then run:

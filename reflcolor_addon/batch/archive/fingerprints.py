@@ -5,8 +5,8 @@ import json
 from functools import cache
 from pathlib import Path
 
-from ...report.report import fingerprint
-from ...version import __version__
+from ...geodesic.kernel import library_file
+from ...report.report import fingerprint, versions
 
 _NAME = "hashes"
 
@@ -57,9 +57,11 @@ class Fingerprints:
 
 @cache
 def program_digest():
-    """Return a hash of the version and of all code that results depend on."""
+    """Return a hash of what results depend on beside their inputs: our code, the kernel, versions of libraries."""
     core = Path(__file__).resolve().parents[2]
-    digest = hashlib.sha256(__version__.encode())
+    kernel = library_file()
+    found = [versions(), None if kernel is None else hashlib.sha256(kernel.read_bytes()).hexdigest()]
+    digest = hashlib.sha256(json.dumps(found, sort_keys=True).encode())
     for path in sorted(core.rglob("*.py"), key=lambda path: path.relative_to(core).as_posix()):
         digest.update(path.relative_to(core).as_posix().encode())
         digest.update(path.read_bytes())

@@ -1,4 +1,7 @@
-"""The folder of a batch: where its results go, what was done already, and who works on what."""
+"""The folder of a batch: where its results go, what was done already, and who works on what.
+
+What it remembers lies in a folder of its own, which may be deleted; then everything is done again.
+"""
 
 import json
 from contextlib import contextmanager
@@ -8,11 +11,9 @@ from pathlib import Path
 from ...errors import OutputError
 from ...files.atomic import written_atomically
 from ...files.locks import try_lock
+from ...report.archive import ITEMS, REPORTS, STATE
 from ...report.report import REPORT_OPTION
 from ..plan import PREVIEW, REPORT, Output
-
-STATE = "batch-state"
-"""Holds what a batch remembers; it may be deleted, then everything is done again."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class BatchFolder:
 
     def records(self, label):
         """The outputs that tell of a scan: its preview and its report, which is the last of all."""
-        reports = self.root / "reports"
+        reports = self.root / REPORTS
         return Output("preview", reports / f"{label}.jpg", PREVIEW), Output(
             REPORT_OPTION, reports / f"{label}.json", REPORT
         )
@@ -50,16 +51,6 @@ class BatchFolder:
         """The table of photos and the scans that they show."""
         return self.root / "pairs.csv"
 
-    @property
-    def page(self):
-        """The report of the whole batch."""
-        return self.root / "report.html"
-
-    @property
-    def table(self):
-        """The same as a table."""
-        return self.root / "report.csv"
-
     def state(self, *parts):
         """A path among what the batch remembers."""
         return self.root.joinpath(STATE, *parts)
@@ -72,9 +63,9 @@ class BatchFolder:
         OutputError
             If they cannot be made.
         """
-        for folder in (self.root, self.root / "reports", self.root / "logs"):
+        for folder in (self.root, self.root / REPORTS, self.root / "logs"):
             _make(folder)
-        for name in ("done", "items", "locks", "matched", "looks"):
+        for name in ("done", ITEMS, "locks", "matched", "looks"):
             _make(self.state(name))
 
     @contextmanager

@@ -20,9 +20,10 @@ def photos_of_items(context, items, known_pairs):
     Returns
     -------
     dict of str to list of str
-        For each item's name the paths of its photos: those that a person names, then what looks best.
+        For each item's name the paths of its photos: those that a person names, then what looks best. Where no look
+        could be taken, all of them: what is wrong is found out when the item is colorized.
     """
-    scores, problems = {}, {}
+    scores, problems, unseen = {}, {}, set()
     photos = {str(path): context.manifest.photo_name(path) for path in context.manifest.photos}
     hashes = context.hashes(photos)
 
@@ -30,17 +31,21 @@ def photos_of_items(context, items, known_pairs):
         return [path for path, name in photos.items() if known_pairs.get((item.name, name)) is shows]
 
     def finished(task, outcome):
-        # What is wrong with a scan is said when its own turn comes.
-        found = outcome["found"] if outcome["done"] else {"scores": {}, "problems": {}}
-        scores[task.name] = found["scores"]
-        problems.update(found["problems"])
+        if not outcome["done"]:
+            unseen.add(task.name)
+            return
+        scores[task.name] = outcome["found"]["scores"]
+        problems.update(outcome["found"]["problems"])
 
     tasks = [_task(context, item, told(item, None), hashes) for item in items]
     context.work([task for task in tasks if task.request["photos"]], finished, "Looked at photos for")
     for path, problem in problems.items():
         context.session.warnings.append(Message("{photo}: {problem}", photo=photos[path], problem=problem))
     chosen = candidates(scores)
-    return {item.name: [*told(item, True), *chosen.get(item.name, [])] for item in items}
+    return {
+        item.name: [*told(item, True), *(told(item, None) if item.name in unseen else chosen.get(item.name, []))]
+        for item in items
+    }
 
 
 def _task(context, item, photos, hashes):

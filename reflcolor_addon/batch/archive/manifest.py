@@ -12,6 +12,7 @@ from ...errors import SettingsError, UsageError
 from ...files.images import IMAGE_SUFFIXES
 from ...messages import Message
 from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
+from ..paths import files_of_each
 from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, default_settings, filled
 from ..read import distinct, safe_label
 from .folder import BatchFolder
@@ -23,6 +24,7 @@ _RESULTS = tuple(suffix.removeprefix(".") for suffix in RESULT_SUFFIXES)
 _OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
 _OF_EACH = ("write", "render", "preset", "settings", "seeds")
 _OF_ONE = ("file", "name", "site", "scan", "photos", "hand", "skip")
+_OF_SITE = (*_OF_EACH, "photos", "hand")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,11 +46,6 @@ class Item:
     plan: Plan
     offered: bool
     line: int
-
-    @property
-    def needs_blender(self):
-        """Whether one of its outputs can only be written in Blender."""
-        return any(output.needs_blender for output in self.plan.outputs)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,6 +131,12 @@ class _Table:
 
     def __contains__(self, key):
         return key in self._values
+
+    def __iter__(self):
+        return iter(self._values)
+
+    def __getitem__(self, key):
+        return self._values[key]
 
     def get(self, key, kind, default=None):
         """A value of one type; the default where it is missing or of another one."""
@@ -283,11 +286,11 @@ class _Reader:
         return tables
 
     def _item(self, name, members, places, pool):
-        path, chain = members[0]
-        own = chain[1:]
+        path, own = members[0][0], self._tables_of(members)
+        chain = [self._whole, *own]
         photos = _last_files(self, own)
         seeds = self._seeds(chain, name, photos if photos is not None else pool)
-        hand = _last(own, "hand", str, None)
+        hand = self._hand(own, name)
         offered = photos is None and seeds is None and bool(pool)
         photos = pool if photos is None else photos
         place = places[path]
@@ -299,12 +302,36 @@ class _Reader:
             wanted=_last(own, "scan", str, None) or ("all" if len(members) == 1 else None),
             name=name,
             seeds=seeds,
-            hand=None if hand is None else self._path.parent / hand,
+            hand=hand,
             photos=tuple(photos),
             settings=self._settings(chain),
             outputs=outputs,
         )
         return Item(name=name, plan=plan, offered=offered, line=self._lines.of(*place))
+
+    def _tables_of(self, members):
+        """The tables of all scans of an item; those of a site may not disagree, for they are worked on together."""
+        tables = list({id(table): table for _, chain in members for table in chain[1:]}.values())
+        if len(members) == 1:
+            return tables
+        first = {}
+        for table in tables:
+            if "scan" in table:
+                table.refuse("scan", "scan: a scan of a site is one of a file of its own; leave it out")
+            for key in set(_OF_SITE) & set(table):
+                if first.setdefault(key, table)[key] != table[key]:
+                    table.refuse(key, "{key}: another scan of the same site has another value; give one", key=key)
+        return tables
+
+    def _hand(self, own, name):
+        table = next((table for table in reversed(own) if "hand" in table), None)
+        text = None if table is None else table.get("hand", str)
+        if text is None:
+            return None
+        path = self._path.parent / text
+        if not files_of_each(path, name):
+            table.refuse("hand", "hand {text!r}: there is no file {path}", text=text, path=filled(path, name))
+        return path
 
     def _seeds(self, chain, name, photos):
         """The seeds of an item; one that the manifest names for all scans need not be there where photos are."""
@@ -313,8 +340,7 @@ class _Reader:
             if text is None:
                 continue
             path = self._path.parent / text
-            there = PLACEHOLDER in text and filled(path, name).is_file()
-            if there or (PLACEHOLDER not in text and path.is_file()):
+            if files_of_each(path, name):
                 return path
             if table is not self._whole or not photos:
                 table.refuse("seeds", "seeds {text!r}: there is no file {path}", text=text, path=filled(path, name))

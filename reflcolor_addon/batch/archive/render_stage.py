@@ -22,9 +22,11 @@ def render_items(context, states):
     """
     pieces = []
     for state in states:
-        plan = render_plan(context, state.item)
         colored = context.done.recall(state.item.name, COLOR)
-        if plan is None or colored is None or state.outcome in (FAILED, UNSHOWN):
+        if colored is None or state.outcome in (FAILED, UNSHOWN):
+            continue
+        plan = render_plan(context, state.item, colored["left_out"] or [])
+        if plan is None:
             continue
         images = [path for path in colored["outputs"] if path.endswith(".png")]
         if not images:
@@ -46,14 +48,20 @@ def render_items(context, states):
             report = context.folder.records(label)[1].path
             if report.is_file():
                 add_output(report, "--render", path)
+                context.done.amend(state.item.name, COLOR, report)
 
     work_on(context, RENDERING, pieces, done=rendered)
 
 
-def render_plan(context, item):
-    """Return the plan that renders an item from its colorized images; None where nothing is to be rendered."""
+def render_plan(context, item, left_out):
+    """Return the plan that renders an item from its colorized images; None where nothing is to be rendered.
+
+    ``left_out`` names scans of it that have no colors.
+    """
     outputs = tuple(output for output in item.plan.outputs if output.kind == RENDER)
     if not outputs:
         return None
     colors = context.folder.result(PLACEHOLDER, ".png")
-    return replace(item.plan, outputs=outputs, seeds=None, hand=None, photos=(), colors=colors)
+    return replace(
+        item.plan, outputs=outputs, seeds=None, hand=None, photos=(), colors=colors, left_out=tuple(left_out)
+    )

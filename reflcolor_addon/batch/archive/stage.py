@@ -5,7 +5,8 @@ from contextlib import ExitStack
 from dataclasses import replace
 
 from ...messages import Message
-from .options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, UNSHOWN
+from ...report.archive import ITEMS
+from .options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN
 
 
 def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
@@ -29,7 +30,8 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             elif options.resume and (record := context.done.recall(state.item.name, stage, key)) is not None:
                 state.outcome, state.left_out = KNOWN, record["left_out"] or []
             else:
-                context.done.forget(state.item.name, stage)
+                for later in STAGES[STAGES.index(stage) :]:
+                    context.done.forget(state.item.name, later)
                 states[task.name] = [state, key, 1]
                 tasks.append(task)
         whole = len(tasks)
@@ -54,7 +56,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
                 state.outcome = DONE if outcome["written"] or not state.left_out else UNSHOWN
             elif not outcome.get("cancelled"):
                 state.outcome, state.error = FAILED, outcome["error"]
-            _remember(context, state)
+            remember_item(context, state)
             _write_log(task, outcome)
             context.session.say(_line(state, outcome, count, whole))
             return state.outcome == FAILED and not options.keep_going
@@ -67,10 +69,10 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             )
 
 
-def _remember(context, state):
+def remember_item(context, state):
     """Keep what became of an item, for the report of the whole batch."""
     document = {"outcome": state.outcome, "error": state.error, "left_out": state.left_out}
-    context.folder.remember("items", state.item.name, document)
+    context.folder.remember(ITEMS, state.item.name, document)
 
 
 def _line(state, outcome, count, whole):

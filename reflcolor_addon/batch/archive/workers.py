@@ -9,7 +9,7 @@ import subprocess
 import sys
 import threading
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from ...errors import Cancelled, ReflcolorError
@@ -62,7 +62,6 @@ class _Process:
     progress: tuple[float, str] = (0.0, "")
     log: object = None
     listener: threading.Thread | None = None
-    started: float = field(default_factory=time.monotonic)
 
 
 class Workers:
@@ -178,13 +177,14 @@ class Workers:
             self._give(self._idle(task.needs_blender), task)
 
     def _idle(self, in_blender):
-        for worker in self._processes:
-            if worker.task is None and worker.in_blender == in_blender:
+        # One whose input is closed is about to end; its end is noticed as that of any other.
+        staying = [worker for worker in self._processes if not worker.process.stdin.closed]
+        idle = [worker for worker in staying if worker.task is None]
+        for worker in idle:
+            if worker.in_blender == in_blender:
                 return worker
-        if len(self._processes) >= self._count:
-            # One of the other kind goes; its end is noticed as that of any other.
-            other = next(worker for worker in self._processes if worker.task is None)
-            other.process.stdin.close()
+        if len(staying) >= self._count:
+            idle[0].process.stdin.close()
         return self._started(in_blender)
 
     def _started(self, in_blender):
@@ -231,7 +231,7 @@ class Workers:
         self._answers.put((worker, None))
 
     def _give(self, worker, task):
-        worker.task, worker.progress, worker.started = task, (0.0, ""), time.monotonic()
+        worker.task, worker.progress = task, (0.0, "")
         if task.log is not None:
             with contextlib.suppress(OSError):
                 worker.log = task.log.open("w", encoding="utf-8", errors="backslashreplace")

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from ...errors import ReflcolorError, UsageError
 from ...messages import Message
-from ...report.archive import write_page
+from ...report.archive import REPORTS, write_page
 
 NAME = "report"
 HELP = "make one page and one table of a batch"
@@ -19,7 +19,7 @@ def add_arguments(parser):
 
 def run(arguments, session):
     """Merge the reports of a batch into report.html, which any browser opens from the disk, and report.csv."""
-    if not (arguments.input / "reports").is_dir():
+    if not (arguments.input / REPORTS).is_dir():
         raise UsageError(
             "{folder}: is not the output folder of a batch: it has no folder reports", folder=arguments.input
         )

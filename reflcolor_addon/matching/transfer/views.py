@@ -195,6 +195,8 @@ def _looked_up(photo, image, xy, how):
     """The values of an image of a photo, (h, w, ...) uint8, at (N, 2) places in pixels of the photo."""
     import cv2
 
+    if not len(xy):
+        return np.zeros((0, *image.shape[2:]), image.dtype)
     places = xy / np.array([photo.width / image.shape[1], photo.height / image.shape[0]], np.float32) - np.float32(0.5)
     # cv2.remap takes no image of more than 32,767 columns or rows.
     places = np.resize(places, (-(-len(xy) // _ROW), _ROW, 2))
