@@ -7,7 +7,7 @@ from ..reflcolor_addon.batch.scan_job import ScanJob
 from .scene import polls
 from .scene.colorized_object import show_colorization
 from .scene.notices import tell, tell_together
-from .scene.photo_colors import observed_reader
+from .scene.photo_colors import observed_reader, use_cameras
 from .scene.provenance import record_provenance, window_report
 from .scene.scan_object import grid_indices, scan_reader
 from .scene.seed_list import seeds_of
@@ -55,6 +55,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
         for obj, job in done:
             result = job.colorization
             show_colorization(obj, result)
+            use_cameras(obj)
             record_provenance(obj, window_report(obj, result, self._settings, job.seeds))
             said = told("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
             tell(self, obj, said, result.warnings, job.seeds, one_of_several=len(jobs) > 1)

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
+from ..reflcolor_addon.batch.paths import check_outputs
 from ..reflcolor_addon.errors import OutputError, ScanError
 from ..reflcolor_addon.files.atomic import written_atomically
 from ..reflcolor_addon.files.writers import MESH_WRITERS
@@ -13,6 +14,7 @@ from ..reflcolor_addon.files.writers.scans_back import SCAN_FILES, write_scans_b
 from .scene import polls
 from .scene.colored_scan import colored_scan_reader
 from .scene.object_surface import surface_of_object
+from .scene.provenance import import_record
 from .scene.texts import shown, told
 from .scene.usd import write_usd
 from .window.jobs import JobOperator
@@ -67,6 +69,8 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
                 known=", ".join(_SUFFIXES),
             )
         objects = polls.scan_objects(context)
+        read = [Path(entry["path"]) for obj in objects for entry in import_record(obj).get("inputs", [])]
+        check_outputs([("Export", path)], read)
         if suffix == ".usd":
             for obj in objects:
                 if reason := polls.closed_mesh(obj):

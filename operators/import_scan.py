@@ -206,18 +206,23 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
 
     def finish(self, context, result):
         added, (scans, photos) = [], result
+        inside, doubts = [], []
+        for path, found, warnings in photos:
+            add_photos(context, found, path)
+            doubts += warnings
+            if found:
+                said = "Photos inside {name}, now on the list of photos: {count}"
+                inside.append(told(said, name=path.name, count=len(found)))
         for arrays, entry, inputs, warnings in scans:
             obj = add_scan_object(context, arrays)
             record_import(obj, entry, inputs, warnings)
-            tell(self, obj, told("Imported {name}", name=arrays.name), warnings)
+            # What was found beside the scans is said with the first of them.
+            tell(self, obj, told("Imported {name}", name=arrays.name), (*warnings, *doubts), details=inside)
             added.append(obj)
+            inside, doubts = [], []
         for obj in added:
             obj.select_set(True)
         show_imported(context, added)
-        for path, found, warnings in photos:
-            add_photos(context, found, path)
-            said = told("Photos inside {name}, now on the list of photos: {count}", name=path.name, count=len(found))
-            tell(self, added[0], said, warnings)
 
     def _pair(self, images):
         """What is said of images that are picked together."""

@@ -44,7 +44,10 @@ class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
         rgb[place] = colors_of(obj, COLORIZED)
         if OBSERVED in obj.data.attributes and PHOTO in obj.data.attributes:
             observed[place], photo[place] = values_of(obj, OBSERVED, np.float32), values_of(obj, PHOTO, np.int32)
-        read_scan, shots, pixels = scan_reader(obj), [_shot(camera) for camera in cameras_of(obj)], self.pixels
+        cameras = cameras_of(obj)
+        read_scan, shots, pixels = scan_reader(obj), [_shot(camera) for camera in cameras], self.pixels
+        leading = [number for number in np.unique(photo[observed > 0]).tolist() if 0 <= number < len(shots)]
+        self._missing = [cameras[number][0] for number in leading if cameras[number] and shots[number] is None]
 
         def work(progress, cancelled):
             return texture(read_scan(), rgb, observed, photo, shots, pixels, progress=progress, cancelled=cancelled)
@@ -58,6 +61,11 @@ class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
             return
         show_texture(obj, pixels)
         rows, columns = pixels.shape[:2]
+        if self._missing:
+            lost = told(
+                "without the detail of {photos}: not among the images any more", photos=", ".join(self._missing)
+            )
+            self.report({"WARNING"}, lost)
         said = told("{name} has a texture of {columns} x {rows} pixels", name=obj.name, columns=columns, rows=rows)
         self.report({"INFO"}, said)
 

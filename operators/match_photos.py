@@ -13,7 +13,7 @@ from .scene.photo_colors import keep_cameras, keep_observed
 from .scene.photo_list import listed_images
 from .scene.photos import photo_of
 from .scene.provenance import record_matching
-from .scene.scan_object import SHIFT, own_image, scan_reader
+from .scene.scan_object import SHIFT, grid_indices, own_image, scan_reader
 from .scene.seed_list import append_seeds, remove_seeds, seeds_of
 from .scene.setting_properties import MATCH_NAMES, MatchArguments, core_settings, keep_used_settings
 from .scene.texts import told
@@ -61,7 +61,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
 
     def finish(self, context, results):
         keep_used_settings(self, context.scene, MATCH_NAMES)
-        done = []
+        there, done = [], []
         images = {image.session_uid: image for image in bpy.data.images}
         images = {name: images.get(uid) for name, uid in self._photos.items()}
         for job, picture in results:
@@ -69,7 +69,10 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
             if obj is None or not obj.reflcolor.rows:
                 self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=job.name))
                 continue
-            # Raises where the mesh cannot take them, before any seed is changed.
+            # Raises where the mesh cannot take what was seen, before any scan is changed.
+            grid_indices(obj)
+            there.append((obj, job, picture))
+        for obj, job, picture in there:
             keep_observed(obj, job.observed)
             keep_cameras(obj, job.matching.photos)
             take_over_seeds(obj, job.seeds, images)

@@ -5,6 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..reflcolor_addon.errors import ScanError
+from .scene.blender_errors import blender_reason
 from .scene.reports import reported
 
 _FOLDER = Path(__file__).parents[1] / "examples" / "cones"
@@ -27,10 +28,15 @@ class REFLCOLOR_OT_open_example(bpy.types.Operator):
 
     @reported
     def execute(self, _context):
-        if not (_FOLDER / _SCAN).is_file():
-            raise ScanError("the example is not there: {path}; install the extension again", path=_FOLDER / _SCAN)
-        bpy.ops.reflcolor.load_photo("EXEC_DEFAULT", filepath=str(_FOLDER / _PHOTO))
-        outcome = bpy.ops.reflcolor.import_scan(self._way, filepath=str(_FOLDER / _SCAN))
+        for name in (_SCAN, _PHOTO):
+            if not (_FOLDER / name).is_file():
+                raise ScanError("the example is not there: {path}; install the extension again", path=_FOLDER / name)
+        try:
+            bpy.ops.reflcolor.load_photo("EXEC_DEFAULT", filepath=str(_FOLDER / _PHOTO))
+            # In the window it goes on after this, so it comes last.
+            outcome = bpy.ops.reflcolor.import_scan(self._way, filepath=str(_FOLDER / _SCAN))
+        except RuntimeError as error:
+            raise ScanError("the example: {reason}", reason=blender_reason(error)) from error
         return {"CANCELLED"} if "CANCELLED" in outcome else {"FINISHED"}
 
 

@@ -5,7 +5,8 @@ A module says what it has for Blender, all of it optional:
 - ``classes``: to be registered, in their order;
 - ``pointers``: (type of Blender's, name of the property, property group);
 - ``menus``: (menu of Blender's, function that draws its entry);
-- ``register()`` and ``unregister()``: whatever else it adds, such as handlers and keymaps.
+- ``handlers``: (list of `bpy.app.handlers`, function that it calls);
+- ``register()`` and ``unregister()``: whatever else it adds, such as keymaps and timers.
 """
 
 from importlib import import_module
@@ -37,10 +38,16 @@ class Registration:
             raise
 
     def unregister(self):
-        """Take everything out again."""
+        """Take everything out again; what cannot be taken out keeps nothing else in, and is raised at the end."""
+        failed = None
         while self._undo:
             take_out, *what = self._undo.pop()
-            take_out(*what)
+            try:
+                take_out(*what)
+            except Exception as error:
+                failed = failed or error
+        if failed is not None:
+            raise failed
 
     def _add(self, module):
         for cls in getattr(module, "classes", ()):
@@ -52,6 +59,9 @@ class Registration:
         for menu, draw in getattr(module, "menus", ()):
             menu.append(draw)
             self._undo.append((menu.remove, draw))
+        for handlers, function in getattr(module, "handlers", ()):
+            handlers.append(function)
+            self._undo.append((handlers.remove, function))
         if hasattr(module, "unregister"):
             self._undo.append((module.unregister,))
         if hasattr(module, "register"):

@@ -7,6 +7,7 @@ from ..reflcolor_addon.progress import part
 from .scene import polls
 from .scene.properties import scene_picture
 from .scene.render import look_through_camera, scans_of, set_up_picture
+from .scene.scan_object import grid_indices
 from .scene.shown_surface import surface_maker
 from .scene.texts import told
 from .window.jobs import JobOperator
@@ -49,6 +50,10 @@ class REFLCOLOR_OT_set_up_render(JobOperator, bpy.types.Operator):
         if obj is None or not obj.reflcolor.rows:
             self.report({"WARNING"}, told("{name} is gone; the render was not set up", name=self._name))
             return
+        for name in surfaces:
+            # Raises where the mesh cannot take a surface, before anything is changed.
+            if scan := bpy.data.objects.get(name):
+                grid_indices(scan)
         set_up_picture(context, obj, self._picture, surfaces)
         look_through_camera(context)
 

@@ -45,6 +45,14 @@ def exported(bpy, path):
     return path
 
 
+def test_the_scanned_file_itself_is_never_overwritten(colorized, tmp_path):
+    bpy, _ = colorized
+    before = (tmp_path / "wall.ptx").read_bytes()
+    with pytest.raises(RuntimeError, match="is an input, and would be overwritten"):
+        bpy.ops.reflcolor.export_scan(filepath=str(tmp_path / "wall.ptx"))
+    assert (tmp_path / "wall.ptx").read_bytes() == before
+
+
 def test_a_ply_has_the_colors_to_the_byte_and_the_coordinates_of_the_world(colorized, tmp_path):
     bpy, scan = colorized
     ply = PlyData.read(exported(bpy, tmp_path / "wall.ply"))

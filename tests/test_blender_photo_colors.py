@@ -99,7 +99,18 @@ def test_a_texture_is_shown_until_other_colors_are_wanted(colorized):
 def test_cameras_come_back_and_what_is_spoiled_is_none(colorized):
     module = importlib.import_module(f"{EXTENSION}.operators.scene.photo_colors")
     obj = colorized.context.active_object
-    obj["reflcolor_cameras"] = "nonsense"
-    assert module.cameras_of(obj) == []
+    for kept, found in (("nonsense", []), ("[null]", [None])):
+        obj["reflcolor_cameras"] = kept
+        module.use_cameras(obj)
+        assert module.cameras_of(obj) == found
+
+
+def test_a_later_search_in_photos_changes_no_camera_of_the_colors(colorized):
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.photo_colors")
+    obj = colorized.context.active_object
     obj["reflcolor_cameras"] = "[null]"
+    assert module.cameras_of(obj) == []
+    colorized.ops.reflcolor.colorize()
+    assert module.cameras_of(obj) == [None]
+    module.keep_observed(obj, None)
     assert module.cameras_of(obj) == [None]

@@ -170,6 +170,36 @@ def test_of_a_ptx_that_is_cut_short_the_whole_columns_come_back(tmp_path):
     np.testing.assert_array_equal(back.color, given_colors(scans)[0])
 
 
+def test_of_a_ptx_whose_second_scan_is_cut_short_what_is_left_out_is_counted(tmp_path):
+    source, made = tmp_path / "hall.ptx", tmp_path / "made.ptx"
+    whole = ptx_text(HALL, NAMES)
+    source.write_text(whole + "\x1a\n" + "".join(whole.splitlines(keepends=True)[:30]))
+    scans = read_scans(source)
+    (warning,) = write_ptx_colors(source, given_colors(scans), made)
+    assert "30 lines at the end of hall.ptx" in warning
+    (back,) = read_scans(made)
+    np.testing.assert_array_equal(back.color, given_colors(scans)[0])
+
+
+def test_a_line_that_only_ends_a_file_may_stand_between_scans(tmp_path):
+    source, made = tmp_path / "hall.ptx", tmp_path / "made.ptx"
+    source.write_text(ptx_text(HALL, NAMES) + "\x1a\n" + ptx_text(HALL[:5], NAMES[:5]))
+    scans = read_scans(source)
+    assert write_ptx_colors(source, given_colors(scans), made) == []
+    assert [back.shape for back in read_scans(made)] == [scan.shape for scan in scans]
+
+
+def test_two_copies_of_one_scan_have_no_room_in_its_file(tmp_path):
+    source = tmp_path / "hall.ptx"
+    source.write_text(ptx_text(HALL, NAMES))
+    (scan,) = read_scans(source)
+    rgb = given_colors([scan])[0]
+    twice = [ColoredScan(scan=scan, rgb=colors, source=source, index=1) for colors in (rgb, 255 - rgb)]
+    with pytest.raises(OutputError, match=r"made.ptx: two of the scans are the same scan of hall.ptx"):
+        write_scans_back(twice, tmp_path / "made.ptx")
+    assert not (tmp_path / "made.ptx").exists()
+
+
 @pytest.mark.parametrize("suffix", [".e57", ".ptx"])
 def test_scans_of_other_formats_are_made_anew_and_what_is_lost_is_told(tmp_path, suffix):
     scans = [random_scan(number, SHAPE) for number in (1, 2)]

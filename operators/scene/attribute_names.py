@@ -41,22 +41,7 @@ def _data_were_imported(context):
     rename_attributes(item.id for item in context.import_items if isinstance(item.id, bpy.types.Object))
 
 
-_HANDLERS = (
+handlers = (
     (bpy.app.handlers.load_post, _file_was_loaded),
     (bpy.app.handlers.blend_import_post, _data_were_imported),
 )
-_added = []
-
-
-def register():
-    """Watch for files that are loaded, appended or linked."""
-    for handlers, function in _HANDLERS:
-        handlers.append(function)
-        _added.append((handlers, function))
-
-
-def unregister():
-    """Watch no more."""
-    while _added:
-        handlers, function = _added.pop()
-        handlers.remove(function)

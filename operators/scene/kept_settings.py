@@ -34,22 +34,7 @@ def _file_was_loaded(_path):
     keep_settings(FORMER_DEFAULT_PRESET, _scenes_of_scans())
 
 
-_HANDLERS = (
+handlers = (
     (bpy.app.handlers.save_pre, _file_is_saved),
     (bpy.app.handlers.load_post, _file_was_loaded),
 )
-_added = []
-
-
-def register():
-    """Watch for files that are saved and loaded."""
-    for handlers, function in _HANDLERS:
-        handlers.append(function)
-        _added.append((handlers, function))
-
-
-def unregister():
-    """Watch no more."""
-    while _added:
-        handlers, function = _added.pop()
-        handlers.remove(function)

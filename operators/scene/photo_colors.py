@@ -17,8 +17,8 @@ from .scan_object import add_values, grid_indices, values_of
 _RGB, _WEIGHT, _PHOTO = ".seen_rgb", ".seen_weight", ".seen_photo"
 # On objects: tells one state of these from another.
 _KEY = "reflcolor_seen"
-# On objects: how the scan falls into each photo, as JSON.
-_CAMERAS = "reflcolor_cameras"
+# On objects: how the scan falls into each photo, as JSON; as last found, and as it was when the scan was colorized.
+_CAMERAS, _USED = "reflcolor_cameras", "reflcolor_used_cameras"
 _BASES = np.array([1 << 16, 1 << 8, 1], np.int32)
 
 
@@ -89,10 +89,15 @@ def keep_cameras(obj, matches):
     obj[_CAMERAS] = json.dumps(found)
 
 
+def use_cameras(obj):
+    """Keep the cameras with the colors: an object was colorized, and its attribute ``photo`` counts these photos."""
+    obj[_USED] = obj.get(_CAMERAS, "[]")
+
+
 def cameras_of(obj):
-    """Return (name, model) of each photo, None for one that was not recognized; an empty list where none is kept."""
+    """Return (name, model) of each photo that ``photo`` counts, None for one that was not recognized; else nothing."""
     try:
-        kept = json.loads(obj.get(_CAMERAS, "[]"))
+        kept = json.loads(obj.get(_USED, "[]"))
         return [None if each is None else (each["name"], model_of(each["model"])) for each in kept]
     except (ValueError, TypeError, KeyError, AttributeError):
         return []

@@ -256,7 +256,7 @@ def _something_was_undone(_scene):
         _live.wished = None
 
 
-_HANDLERS = (
+handlers = (
     (bpy.app.handlers.load_post, _file_was_loaded),
     (bpy.app.handlers.save_pre, _file_is_saved),
     (bpy.app.handlers.undo_pre, _something_will_be_undone),
@@ -264,14 +264,6 @@ _HANDLERS = (
     (bpy.app.handlers.undo_post, _something_was_undone),
     (bpy.app.handlers.redo_post, _something_was_undone),
 )
-_added = []
-
-
-def register():
-    """Watch for files that are loaded and saved, and for what is undone."""
-    for handlers, function in _HANDLERS:
-        handlers.append(function)
-        _added.append((handlers, function))
 
 
 def unregister():
@@ -279,6 +271,3 @@ def unregister():
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)
     _end()
-    while _added:
-        handlers, function = _added.pop()
-        handlers.remove(function)

@@ -31,7 +31,7 @@ _COUNT = re.compile(r"\d{1,18}(\.0*)?")
 _NO_NUMBER = re.compile(r"[-+]?(?:nan\([^)\s]*\)|\d\.#[A-Za-z]+\d*)", re.IGNORECASE)
 """What Windows programs print for what is no number: -nan(ind), 1.#QNAN."""
 
-_END_MARKS = "\x1a\x00 \t"
+END_MARKS = "\x1a\x00 \t"
 
 
 def read_ptx(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -102,7 +102,7 @@ def _stored_scans(file, path, options, progress, cancelled):
     rest = None
     while rest is None and (line := lines.next_line()) is not None:
         lines.check_cancelled()
-        if not line.strip(_END_MARKS):
+        if not line.strip(END_MARKS):
             continue
         if stored and not _COUNT.fullmatch(line):
             rest = Message(
@@ -315,7 +315,7 @@ class _Body:
         """Slower: for lines that differ in length, and to find the one that is wrong."""
         parsed = []
         for number, line in enumerate(chunk, first):
-            words = line.strip(_END_MARKS).split()
+            words = line.strip(END_MARKS).split()
             if not words:
                 continue
             try:

@@ -15,8 +15,8 @@ from ..gate import opened, size_of
 from ..memory import require_memory
 from ..readers.e57 import each_scan
 from ..readers.e57_columns import OneLine, library_of, reason_of, shared_file
-from ..readers.grid import UnusableScan
 from ..readers.options import AS_IT_IS
+from .point_colors import colors_of_points
 
 SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "e57_colors.py"
 _BYTES_PER_POINT = 4
@@ -66,28 +66,13 @@ def write_e57_colors(source, colors, path, *, options=AS_IT_IS, progress=None, c
 
 def _point_colors(file, source, colors, path, options, warnings, progress, cancelled):
     """Four columns of bytes for every scan that has colors, one after the other, and where each begins."""
-    parts, places, at, number = [], {}, 0, -1
-    for index, (scan, order, cells) in enumerate(
-        each_scan(file, source, options=options, progress=progress, cancelled=cancelled)
-    ):
-        number += not isinstance(scan, UnusableScan)
-        rgb = None if isinstance(scan, UnusableScan) else colors.get(number)
-        if rgb is None:
-            continue
-        if rgb.shape[:2] != scan.shape:
-            raise OutputError(
-                "{file}: {source} is not the file any more that its scans were read from", file=path, source=source.name
-            )
-        cells = cells()
-        there = cells >= 0
-        pixels = np.full(len(cells), -1, np.int64)
-        pixels[there] = order.pixels(*np.divmod(cells[there], order.stored[1]))
-        known = (pixels >= 0) & scan.valid.ravel()[pixels]
-        part = np.zeros((_BYTES_PER_POINT, len(cells)), np.uint8)
-        part[:3, known] = rgb.reshape(-1, 3)[pixels[known]].T
-        part[3] = ~known
+    parts, places, at = [], {}, 0
+    scans = each_scan(file, source, options=options, progress=progress, cancelled=cancelled)
+    for index, scan, rgb, known in colors_of_points(scans, colors, path, source):
+        part = np.empty((_BYTES_PER_POINT, len(known)), np.uint8)
+        part[:3], part[3] = rgb.T, ~known
         parts.append(part)
-        places[index] = [at, len(cells), not known.all()]
+        places[index] = [at, len(known), not known.all()]
         at += part.size
         if lost := np.count_nonzero(~known):
             warnings.append(
@@ -96,7 +81,7 @@ def _point_colors(file, source, colors, path, options, warnings, progress, cance
                     file=path.name,
                     scan=scan.name,
                     count=lost,
-                    all=len(cells),
+                    all=len(known),
                 )
             )
     if not places:

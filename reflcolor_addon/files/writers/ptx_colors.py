@@ -2,15 +2,14 @@
 
 from pathlib import Path
 
-import numpy as np
-
-from ...errors import OutputError, ScanError
+from ...errors import ScanError
+from ...messages import Message
 from ..atomic import written_atomically
 from ..gate import opened
-from ..readers.grid import UnusableScan
 from ..readers.options import AS_IT_IS
-from ..readers.ptx import each_scan
+from ..readers.ptx import END_MARKS, each_scan
 from ..readers.text_lines import TextLines
+from .point_colors import colors_of_points
 
 _HEADER_LINES = 10
 _LINES = 1 << 18
@@ -26,7 +25,7 @@ def write_ptx_colors(source, colors, path, *, options=AS_IT_IS, progress=None, c
     Returns
     -------
     list of Message
-        Nothing: all of a PTX is kept.
+        What was left out: lines behind the last whole scan or column of a file that is cut short.
     """
     source, path = Path(source), Path(path)
     with opened(source, "a PTX file", error=ScanError) as file:
@@ -41,32 +40,39 @@ def write_ptx_colors(source, colors, path, *, options=AS_IT_IS, progress=None, c
         ):
             for rgb in words:
                 _copy_scan(lines, made, rgb)
-    return []
+            cut = _rest(lines)
+    if not cut:
+        return []
+    return [
+        Message(
+            "{file}: {count} lines at the end of {source} are no whole scan or column; they were left out",
+            file=path.name,
+            count=cut,
+            source=source.name,
+        )
+    ]
+
+
+def _rest(lines):
+    """How many lines that say something are left."""
+    count = 0
+    while (line := lines.next_line()) is not None:
+        count += bool(line.strip(END_MARKS))
+    return count
 
 
 def _words_of_lines(file, source, colors, path, options, progress, cancelled):
     """For every scan of the file (N, 3) uint8 of its lines; the number of them for one that keeps its own colors."""
-    found, number = [], -1
-    for scan, order, cells in each_scan(file, source, options=options, progress=progress, cancelled=cancelled):
-        unusable = isinstance(scan, UnusableScan)
-        number += not unusable
-        rgb = None if unusable else colors.get(number)
-        if rgb is None:
-            found.append(None)
-            continue
-        if rgb.shape[:2] != scan.shape:
-            raise OutputError(
-                "{file}: {source} is not the file any more that its scans were read from", file=path, source=source.name
-            )
-        cells = cells()
-        there = cells >= 0
-        pixels = np.full(len(cells), -1, np.int64)
-        pixels[there] = order.pixels(*np.divmod(cells[there], order.stored[1]))
-        known = (pixels >= 0) & scan.valid.ravel()[pixels]
-        words = np.zeros((len(cells), 3), np.uint8)
-        words[known] = rgb.reshape(-1, 3)[pixels[known]]
-        found.append(words)
-    return found
+    count = 0
+
+    def counted():
+        nonlocal count
+        for scan in each_scan(file, source, options=options, progress=progress, cancelled=cancelled):
+            count += 1
+            yield scan
+
+    found = {index: rgb for index, _, rgb, _ in colors_of_points(counted(), colors, path, source)}
+    return [found.get(index) for index in range(count)]
 
 
 def _copy_scan(lines, made, rgb):
@@ -76,7 +82,8 @@ def _copy_scan(lines, made, rgb):
         line = lines.next_line()
         if line is None:
             return
-        header.append(line)
+        if header or line.strip(END_MARKS):
+            header.append(line)
     columns, rows = (int(float(word)) for word in header[:2])
     if rgb is not None and len(rgb) < columns * rows:
         # Of a file that is cut short the whole columns.

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...errors import OutputError
 from ...messages import Message
 from ...scan.scan import Scan
 from ..readers.options import AS_IT_IS, ReadOptions
@@ -74,6 +75,12 @@ def write_scans_back(colored, path, *, progress=None, cancelled=None):
     source = sources.pop() if len(sources) == len(ways) == 1 else None
     if source is not None and source.suffix.lower() == suffix:
         colors = {scan.index - 1: scan.rgb for scan in colored}
+        if len(colors) < len(colored):
+            raise OutputError(
+                "{file}: two of the scans are the same scan of {source}; it has room for one: export them one by one",
+                file=path.name,
+                source=source.name,
+            )
         return _COPIES[suffix](source, colors, path, options=ways.pop(), progress=progress, cancelled=cancelled)
     scans = [replace(scan.scan, color=scan.rgb) for scan in colored]
     if progress:
