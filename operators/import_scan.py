@@ -211,8 +211,10 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             add_photos(context, found, path)
             doubts += warnings
             if found:
-                said = "Photos inside {name}, now on the list of photos: {count}"
-                inside.append(told(said, name=path.name, count=len(found)))
+                count = len(found)
+                inside.append(
+                    told("Photos inside {name}, now on the list of photos: {count}", name=path.name, count=count)
+                )
         for arrays, entry, inputs, warnings in scans:
             obj = add_scan_object(context, arrays)
             record_import(obj, entry, inputs, warnings)

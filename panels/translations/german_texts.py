@@ -112,6 +112,10 @@ _REPORTS = {
     "the example is not there: {path}; install the extension again": (
         "das Beispiel ist nicht da: {path}; die Erweiterung neu installieren"
     ),
+    "the example: {reason}": "das Beispiel: {reason}",
+    "without the detail of {photos}: not among the images any more": (
+        "ohne die Einzelheiten von {photos}: nicht mehr unter den Bildern"
+    ),
     "Writing {name}": "{name} wird geschrieben",
     "{file}: cannot be written ({reason})": "{file}: nicht zu schreiben ({reason})",
     "{file}: cannot be written ({reason}); choose another folder": (
