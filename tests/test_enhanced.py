@@ -98,7 +98,7 @@ def test_one_seed_colors_everything_it_reaches():
 
 
 def test_more_seeds_than_kriging_takes_are_told_and_blended_without_it(monkeypatch):
-    monkeypatch.setattr("reflcolor_addon.color.colorizer.MAX_SEEDS", 5)
+    monkeypatch.setattr("reflcolor_addon.color.spreader.MAX_SEEDS", 5)
     scan = random_scan(shape=(9, 12))
     result = colorize(scan, seeds_of(scan), ENHANCED)
     assert "kriging is left out: it takes 5 seeds at most, found 12" in result.warnings

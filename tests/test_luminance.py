@@ -56,7 +56,7 @@ def test_another_light_or_tone_computes_nothing_anew(monkeypatch):
     scan = random_scan(shape=(9, 12))
     colorizer = Colorizer(scan, NATURAL)
     colorizer.colorize(SEEDS)
-    monkeypatch.setattr(colorizer, "_spread_from", None)
+    monkeypatch.setattr(colorizer._spreader, "_spread_from", None)
     for change in ({"light": 0.3}, {"tone": 1.7}, {"light": 0.8, "tone": 0.6}):
         settings = dataclasses.replace(NATURAL, **change)
         assert colorizer.colorize(SEEDS, settings).rgb.tobytes() == colorize(scan, SEEDS, settings).rgb.tobytes()

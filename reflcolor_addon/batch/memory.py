@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ..color.colorizer import bytes_of_colorizing
+from ..color.spreader import bytes_of_colorizing
 from ..errors import ReflcolorError
 from ..files.images import image_size
 from ..files.memory import available_bytes, readable
