@@ -2,6 +2,7 @@
 
 import bpy
 
+from .scene import polls
 from .scene.texts import tip
 from .window import seed_picking
 
@@ -15,10 +16,7 @@ class REFLCOLOR_OT_close_seed_picking(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if not seed_picking.is_open(context):
-            cls.poll_message_set(tip("Open Seed Picking first"))
-            return False
-        return True
+        return polls.nothing_missing(cls, None if seed_picking.is_open(context) else tip("Open Seed Picking first"))
 
     def execute(self, context):
         seed_picking.close_seed_picking(context)

@@ -18,10 +18,8 @@ class REFLCOLOR_OT_copy_provenance(bpy.types.Operator):
     def poll(cls, context):
         if not polls.has_scan(cls, context):
             return False
-        if provenance_text(polls.scan_object(context)) is None:
-            cls.poll_message_set(tip("Colorize the scan first"))
-            return False
-        return True
+        missing = tip("Colorize the scan first") if provenance_text(polls.scan_object(context)) is None else None
+        return polls.nothing_missing(cls, missing)
 
     def execute(self, context):
         context.window_manager.clipboard = provenance_text(polls.scan_object(context))

@@ -2,6 +2,7 @@
 
 import bpy
 
+from .scene import polls
 from .scene.editors import redraw_editors
 from .scene.texts import tip
 
@@ -15,10 +16,7 @@ class REFLCOLOR_OT_drop_color(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if not context.scene.reflcolor.picked:
-            cls.poll_message_set(tip("Pick a color first"))
-            return False
-        return True
+        return polls.nothing_missing(cls, None if context.scene.reflcolor.picked else tip("Pick a color first"))
 
     def execute(self, context):
         settings = context.scene.reflcolor

@@ -12,7 +12,7 @@ from ..reflcolor_addon.files.atomic import written_atomically
 from ..reflcolor_addon.files.writers import MESH_WRITERS
 from ..reflcolor_addon.files.writers.scans_back import SCAN_FILES, write_scans_back
 from .scene import polls
-from .scene.colored_scan import colored_scan_reader
+from .scene.colored_scan import colored_scans_reader
 from .scene.object_surface import surface_of_object
 from .scene.provenance import import_record
 from .scene.texts import shown, told
@@ -78,10 +78,10 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
             # Blender's own exporter, which no thread may call: it is `finish` that does it.
             return lambda _progress, _cancelled: (path, [])
         if suffix in SCAN_FILES:
-            readers = [colored_scan_reader(obj) for obj in objects]
+            read_scans = colored_scans_reader(objects)
             return lambda progress, cancelled: (
                 path,
-                write_scans_back([read() for read in readers], path, progress=progress, cancelled=cancelled),
+                write_scans_back(read_scans(cancelled), path, progress=progress, cancelled=cancelled),
             )
         surfaces = [surface_of_object(context, obj) for obj in objects]
 

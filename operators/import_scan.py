@@ -20,7 +20,7 @@ from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.scan.object_arrays import object_arrays
 from .scene.notices import tell
 from .scene.pair_preview import draw_preview, picked_files
-from .scene.photos import add_photos
+from .scene.photos import add_photos, photo_file
 from .scene.provenance import record_import
 from .scene.reading_properties import ReadingProperties
 from .scene.scan_object import add_scan_object
@@ -172,7 +172,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             return scans, photos_in(paths, cancelled)
 
         def photos_in(paths, cancelled):
-            """(path, photos, warnings) of each file that has photos inside; what is wrong with them stops no import."""
+            """(PhotoFile, warnings) of each file that has photos inside; what is wrong with them stops no import."""
             found = []
             for path in paths if inside else ():
                 warnings, photos = [], []
@@ -191,7 +191,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
                 except ImageError as error:
                     warnings.append(error.message)
                 if photos or warnings:
-                    found.append((path, photos, warnings))
+                    found.append((photo_file(photos, path, cancelled=cancelled), warnings))
             return found
 
         def read(path, doubts, progress, cancelled):
@@ -207,14 +207,11 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
     def finish(self, context, result):
         added, (scans, photos) = [], result
         inside, doubts = [], []
-        for path, found, warnings in photos:
-            add_photos(context, found, path)
+        for file, warnings in photos:
             doubts += warnings
-            if found:
-                count = len(found)
-                inside.append(
-                    told("Photos inside {name}, now on the list of photos: {count}", name=path.name, count=count)
-                )
+            if images := add_photos(context, file):
+                name, count = Path(file.entry["path"]).name, len(images)
+                inside.append(told("Photos inside {name}, now on the list of photos: {count}", name=name, count=count))
         for arrays, entry, inputs, warnings in scans:
             obj = add_scan_object(context, arrays)
             record_import(obj, entry, inputs, warnings)

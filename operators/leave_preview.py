@@ -2,6 +2,7 @@
 
 import bpy
 
+from .scene import polls
 from .scene.texts import tip
 from .window import live_update
 
@@ -15,10 +16,8 @@ class REFLCOLOR_OT_leave_preview(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if not context.window_manager.reflcolor.live_update:
-            cls.poll_message_set(tip("Turn Live Update on first"))
-            return False
-        return True
+        on = context.window_manager.reflcolor.live_update
+        return polls.nothing_missing(cls, None if on else tip("Turn Live Update on first"))
 
     def execute(self, context):
         context.window_manager.reflcolor.live_update = False

@@ -8,20 +8,22 @@ from bpy.props import BoolProperty, CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..reflcolor_addon.files.photo_files import PHOTO_SUFFIXES, photos_of
+from ..reflcolor_addon.messages import Message
 from .scene import polls
 from .scene.image_sides import show_image
-from .scene.photos import add_photos
-from .scene.reports import reported
+from .scene.photos import add_photos, photo_file
 from .scene.texts import shown, told
 from .window.folders import open_in, was_picked
+from .window.jobs import JobOperator
 
 
-class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
+class REFLCOLOR_OT_load_photo(JobOperator, bpy.types.Operator, ImportHelper):
     """Load ordinary photos, or those inside an E57, from any camera and any place, to take colors from"""
 
     bl_idname = "reflcolor.load_photo"
     bl_label = "Load Photo"
     bl_options = {"REGISTER", "UNDO"}
+    job_name = "Load Photo"
 
     filter_glob: StringProperty(default=";".join(f"*{suffix}" for suffix in PHOTO_SUFFIXES), options={"HIDDEN"})
 
@@ -36,28 +38,38 @@ class REFLCOLOR_OT_load_photo(bpy.types.Operator, ImportHelper):
     def invoke(self, context, event):
         # Given by a drop or a script; what was picked the last time does not count as given.
         if self.properties.is_property_set("filepath"):
-            return self.execute(context)
+            return self.start(context)
         open_in(self, _scan_folder(context))
-        return ImportHelper.invoke(self, context, event)
+        return self.browse(ImportHelper, context, event)
 
-    @reported
-    def execute(self, context):
+    def prepare(self, context):
         was_picked(self)
-        names = [file.name for file in self.files if file.name]
-        for path in [Path(self.directory, name) for name in names] or [Path(self.filepath)]:
-            warnings = []
-            photos = photos_of(path, warnings)
-            if self.swap_red_blue:
-                photos = [replace(photo, rgb=photo.rgb[..., ::-1]) for photo in photos]
-            images = add_photos(context, photos, path)
-            for warning in warnings:
-                self.report({"WARNING"}, shown(warning))
-            for image in images:
-                width, height = image.size
-                said = told("Loaded {name}: {width} x {height} pixels", name=image.name, width=width, height=height)
-                self.report({"INFO"}, said)
-        show_image(context, image)
-        return {"FINISHED"}
+        paths = [Path(self.directory, file.name) for file in self.files if file.name] or [Path(self.filepath)]
+        swapped = self.swap_red_blue
+
+        def work(progress, cancelled):
+            files, warnings = [], []
+            for number, path in enumerate(paths):
+                if progress is not None:
+                    progress(number / len(paths), Message("Loading {file}", file=path.name))
+                photos = photos_of(path, warnings, cancelled=cancelled)
+                if swapped:
+                    photos = [replace(photo, rgb=photo.rgb[..., ::-1]) for photo in photos]
+                files.append(photo_file(photos, path, cancelled=cancelled))
+            return files, warnings
+
+        return work
+
+    def finish(self, context, result):
+        files, warnings = result
+        images = [image for file in files for image in add_photos(context, file)]
+        for warning in warnings:
+            self.report({"WARNING"}, shown(warning))
+        for image, photo in zip(images, (photo for file in files for photo in file.photos), strict=True):
+            height, width = photo.rgb.shape[:2]
+            said = told("Loaded {name}: {width} x {height} pixels", name=image.name, width=width, height=height)
+            self.report({"INFO"}, said)
+        show_image(context, images[-1])
 
 
 def _scan_folder(context):

@@ -12,7 +12,7 @@ from ..reflcolor_addon.seeds.seeds_file import find_photo
 from .scene import polls
 from .scene.notices import tell
 from .scene.photo_colors import keep_observed
-from .scene.photos import add_photos
+from .scene.photos import add_photos, photo_file
 from .scene.provenance import record_seeds_file
 from .scene.reports import reported
 from .scene.scan_object import scan_of
@@ -47,7 +47,7 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
         for name in dict.fromkeys(filter(None, seeds.photos)):
             path = find_photo(name, Path(self.filepath), ())
             if path is not None and name not in bpy.data.images:
-                add_photos(context, photos_of(path), path)
+                add_photos(context, photo_file(photos_of(path), path))
         if self.replace:
             obj.reflcolor.seeds.clear()
             keep_observed(obj, None)

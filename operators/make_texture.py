@@ -8,7 +8,7 @@ from ..reflcolor_addon.matching import LARGEST, Shot, texture
 from ..reflcolor_addon.matching.photo_image import PhotoImage
 from .scene import polls
 from .scene.images import read_pixels
-from .scene.photo_colors import cameras_of
+from .scene.photo_colors import camera_image, cameras_of
 from .scene.photo_texture import show_texture
 from .scene.scan_object import COLORIZED, OBSERVED, PHOTO, colors_of, grid_indices, scan_reader, values_of
 from .scene.texts import told
@@ -45,7 +45,8 @@ class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
         if OBSERVED in obj.data.attributes and PHOTO in obj.data.attributes:
             observed[place], photo[place] = values_of(obj, OBSERVED, np.float32), values_of(obj, PHOTO, np.int32)
         cameras = cameras_of(obj)
-        read_scan, shots, pixels = scan_reader(obj), [_shot(camera) for camera in cameras], self.pixels
+        read_scan, pixels = scan_reader(obj), self.pixels
+        shots = [_shot(camera, camera_image(obj, number)) for number, camera in enumerate(cameras)]
         leading = [number for number in np.unique(photo[observed > 0]).tolist() if 0 <= number < len(shots)]
         self._missing = [cameras[number][0] for number in leading if cameras[number] and shots[number] is None]
 
@@ -70,10 +71,9 @@ class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
         self.report({"INFO"}, said)
 
 
-def _shot(camera):
-    """The Shot of a photo that is still there, else None."""
-    image = None if camera is None else bpy.data.images.get(camera[0])
-    pixels = None if image is None else read_pixels(image)
+def _shot(camera, image):
+    """The Shot of a photo that was recognized and is still there, else None."""
+    pixels = None if camera is None or image is None else read_pixels(image)
     return None if pixels is None else Shot(PhotoImage(camera[0], pixels), camera[1])
 
 

@@ -16,7 +16,7 @@ from .scene.provenance import record_matching
 from .scene.scan_object import SHIFT, grid_indices, own_image, scan_reader
 from .scene.seed_list import append_seeds, remove_seeds, seeds_of
 from .scene.setting_properties import MATCH_NAMES, MatchArguments, core_settings, keep_used_settings
-from .scene.texts import told
+from .scene.texts import shown, told
 from .scene.verdicts import keep_verdicts
 from .window.jobs import JobOperator
 
@@ -74,7 +74,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
             there.append((obj, job, picture))
         for obj, job, picture in there:
             keep_observed(obj, job.observed)
-            keep_cameras(obj, job.matching.photos)
+            keep_cameras(obj, job.matching.photos, images)
             take_over_seeds(obj, job.seeds, images)
             found = [(images[photo.name], photo) for photo in job.matching.photos if images.get(photo.name)]
             keep_verdicts(obj, found)
@@ -90,7 +90,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
 
     def _tell(self, obj, matching, *, one_of_several):
         said = told("Found {count} seeds for {name}", count=len(matching.seeds), name=obj.name)
-        details = [f"{photo.name}: {photo.note}" for photo in matching.photos]
+        details = [f"{photo.name}: {shown(photo.note)}" for photo in matching.photos]
         tell(self, obj, said, matching.warnings, details=details, one_of_several=one_of_several)
 
 

@@ -18,12 +18,8 @@ class REFLCOLOR_OT_read_verdict(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if not polls.has_scan(cls, context):
-            return False
-        if _verdict(context) is None:
-            cls.poll_message_set(tip("Match the photo first"))
-            return False
-        return True
+        missing = tip("Match the photo first") if _verdict(context) is None else None
+        return polls.has_scan(cls, context) and polls.nothing_missing(cls, missing)
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_popup(self, width=POPUP_WIDTH)

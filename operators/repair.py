@@ -2,7 +2,7 @@
 
 import bpy
 
-from .scene import packages
+from .scene import packages, polls
 from .scene.texts import tip
 
 _EXTENSION = __package__.rpartition(".")[0]
@@ -19,10 +19,7 @@ class REFLCOLOR_OT_repair(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context):
-        if not packages.missing():
-            cls.poll_message_set(tip("Nothing is missing"))
-            return False
-        return True
+        return polls.nothing_missing(cls, None if packages.missing() else tip("Nothing is missing"))
 
     def execute(self, _context):
         bpy.app.timers.register(enable_again, first_interval=_WAIT_S)

@@ -27,10 +27,8 @@ class REFLCOLOR_OT_seeds_from_color(bpy.types.Operator):
     def poll(cls, context):
         if not polls.has_own_scan(cls, context):
             return False
-        if SCANNED not in polls.scan_object(context).data.color_attributes:
-            cls.poll_message_set(tip("The scan came without colors"))
-            return False
-        return True
+        colored = SCANNED in polls.scan_object(context).data.color_attributes
+        return polls.nothing_missing(cls, None if colored else tip("The scan came without colors"))
 
     @reported
     def execute(self, context):

@@ -6,7 +6,7 @@ from ..reflcolor_addon.errors import ScanError
 from ..reflcolor_addon.progress import part
 from .scene import polls
 from .scene.properties import scene_picture
-from .scene.render import look_through_camera, scans_of, set_up_picture
+from .scene.render import fillable_scans, look_through_camera, set_up_picture
 from .scene.scan_object import grid_indices
 from .scene.shown_surface import surface_maker
 from .scene.texts import told
@@ -30,11 +30,9 @@ class REFLCOLOR_OT_set_up_render(JobOperator, bpy.types.Operator):
         if not len(obj.data.vertices):
             raise ScanError("{name}: the scan has no points to show", name=obj.name)
         self._name = obj.name
-        # A scan that cannot be written to is shown as measured.
-        filled = [scan for scan in scans_of(context.scene) if polls.closed_mesh(scan) is None and not scan.library]
         makers = {
             scan.name: surface_maker(scan, drop_mixed=self._picture.drop_mixed)
-            for scan in (filled if self._picture.filled else ())
+            for scan in (fillable_scans(context.scene) if self._picture.filled else ())
         }
 
         def work(progress, cancelled):

@@ -19,10 +19,8 @@ class NoticeChoice:
     def poll(cls, context):
         if not polls.has_scan(cls, context):
             return False
-        if not polls.scan_object(context).reflcolor.notices:
-            cls.poll_message_set(tip("There are no messages"))
-            return False
-        return True
+        missing = None if polls.scan_object(context).reflcolor.notices else tip("There are no messages")
+        return polls.nothing_missing(cls, missing)
 
     def notice(self, context):
         """Return the chosen message; the last one where there are fewer."""

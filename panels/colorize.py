@@ -1,6 +1,8 @@
 """Step 4: colorize, and step 5: compare with the truth."""
 
 from ..operators.scene import polls
+from ..operators.scene.properties import scene_picture
+from ..operators.scene.render import lacks_surface
 from ..operators.scene.setting_properties import COLORIZE_NAMES, active_preset
 from ..operators.scene.texts import label
 from ..operators.window import live_update
@@ -49,6 +51,8 @@ class Colorize(Step):
         row = layout.row(align=True)
         draw_act(row, "reflcolor.set_up_render", "Set Up Render", icon="OUTLINER_OB_CAMERA")
         row.operator("render.render", text="Render", icon="RENDER_STILL")
+        if lacks_surface(context.scene, scene_picture(context.scene)):
+            layout.label(text="Set Up Render again to fill holes", icon="INFO")
         if obj is None:
             layout.label(text="Needs a scan", icon="INFO")
         elif not any(scan.reflcolor.seeds for scan in polls.scan_objects(context)):

@@ -7,7 +7,7 @@ from ..operators.scene.photo_list import active_image, photo_settings
 from ..operators.scene.texts import label
 from ..operators.scene.verdicts import verdict_of
 from ..operators.window import seed_picking
-from .step import Step, in_both_editors
+from .step import Step, draw_act, in_both_editors, is_running
 
 
 class REFLCOLOR_UL_photos(bpy.types.UIList):
@@ -40,13 +40,16 @@ class Images(Step):
         buttons.operator("reflcolor.load_photo", text="", icon="ADD")
         buttons.operator("reflcolor.remove_photo", text="", icon="REMOVE")
         verdict = verdict_of(obj, active_image(context.scene))
-        if verdict is not None:
+        if is_running("Load Photo") or not settings.photos:
+            draw_act(layout, "reflcolor.load_photo", "Load Photo", icon="FILE_IMAGE")
+        elif verdict is not None:
             row = layout.row(align=True)
             said = label("Verified on this scan") if verdict.verified else label("Not found on this scan")
             row.label(text=said, icon="CHECKMARK" if verdict.verified else "ERROR", translate=False)
             row.operator("reflcolor.read_verdict", text="", icon="FULLSCREEN_ENTER", emboss=False)
-        elif not settings.photos:
-            layout.operator("reflcolor.load_photo", icon="FILE_IMAGE")
+        else:
+            # A row in any case: no button below it is to jump.
+            layout.label(text="Not matched with this scan", icon="IMAGE_DATA")
 
 
 classes = (REFLCOLOR_UL_photos, *in_both_editors(Images))

@@ -25,12 +25,18 @@ def draw_act(layout, operator, name, **button):
 
     ``name`` is what the work is called. Returns the operator's properties, or None while the work runs.
     """
-    job = jobs.running()
-    if job is None or job.name != name:
+    if not is_running(name):
         return layout.operator(operator, **button)
+    job = jobs.running()
     done = label("{percent:.0%} (ESC cancels)", percent=job.fraction)
     layout.progress(factor=job.fraction, text=label("Cancelling") if job.stopping else done, translate=False)
     return None
+
+
+def is_running(name):
+    """Whether long work of that name goes on."""
+    job = jobs.running()
+    return job is not None and job.name == name
 
 
 def draw_selected(context, layout):

@@ -1,11 +1,12 @@
 """A scan's object with the colors that it shows, to be written back into a scan file."""
 
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
-from ...reflcolor_addon.errors import ReflcolorError, UsageError
+from ...reflcolor_addon.errors import Cancelled, ReflcolorError, UsageError
 from ...reflcolor_addon.files.readers.options import AS_IT_IS, ReadOptions
 from ...reflcolor_addon.files.writers.scans_back import ColoredScan
 from ...reflcolor_addon.report.report import fingerprint
@@ -13,25 +14,37 @@ from .provenance import import_record
 from .scan_object import SHIFT, colors_of, grid_indices, scan_reader, shown_in_renders
 
 
-def colored_scan_reader(obj):
-    """Return a function that makes the ColoredScan of an object; it touches no bpy, a thread may call it.
+def colored_scans_reader(objects):
+    """Return ``read(cancelled)``, which gives a ColoredScan of each object; it touches no bpy, a thread may call it.
 
     The scan's file is named where it is still what the object was made from.
 
     Raises
     ------
     ScanError
-        If the mesh has lost the attributes that it takes.
+        If the mesh of one has lost the attributes that it takes.
     """
+    readers = [_reader(obj) for obj in objects]
+
+    def read(cancelled=None):
+        # The scans of a site may all be of one large file.
+        unchanged = lru_cache(maxsize=None)(lambda path, sha256: _is_unchanged(path, sha256, cancelled))
+        return [read_one(unchanged) for read_one in readers]
+
+    return read
+
+
+def _reader(obj):
+    """A function that makes the ColoredScan of an object, told how to find out whether a file is as it was."""
     read_scan, colors, place = scan_reader(obj), colors_of(obj, shown_in_renders(obj)), grid_indices(obj)
     record, shape = import_record(obj), (obj.reflcolor.rows, obj.reflcolor.cols)
     shift = np.array(obj.get(SHIFT, (0, 0, 0)), np.float64)
 
-    def read():
+    def read(unchanged):
         rgb = np.zeros((*shape, 3), np.uint8)
         rgb[place] = colors
         entry = record.get("scan", {})
-        source, options = _source(record), _options(entry)
+        source, options = _source(record, unchanged), _options(entry)
         known = source is not None and options is not None and isinstance(entry.get("index"), int)
         scan = read_scan()
         pose = scan.pose.copy()
@@ -47,14 +60,22 @@ def colored_scan_reader(obj):
     return read
 
 
-def _source(record):
+def _source(record, unchanged):
     """The scan's file, if it is there as it was; None else."""
     inputs = [entry for entry in record.get("inputs", []) if entry.get("role") == "scan"]
-    try:
-        unchanged = len(inputs) == 1 and fingerprint(inputs[0]["path"])["sha256"] == inputs[0]["sha256"]
-    except (ReflcolorError, KeyError):
+    if len(inputs) != 1 or not {"path", "sha256"} <= inputs[0].keys():
         return None
-    return Path(inputs[0]["path"]) if unchanged else None
+    path, sha256 = inputs[0]["path"], inputs[0]["sha256"]
+    return Path(path) if unchanged(path, sha256) else None
+
+
+def _is_unchanged(path, sha256, cancelled):
+    try:
+        return fingerprint(path, cancelled)["sha256"] == sha256
+    except Cancelled:
+        raise
+    except ReflcolorError:
+        return False
 
 
 def _options(entry):

@@ -5,7 +5,7 @@ from collections import OrderedDict
 import bpy
 import numpy as np
 
-from ...reflcolor_addon.files.images import eight_bits
+from ...reflcolor_addon.files.images import eight_bits, png_bytes
 from ...reflcolor_addon.srgb import linear_to_srgb8
 
 _MOST_REMEMBERED = 4
@@ -28,8 +28,26 @@ def write_image(image, name, pixels, *, is_data):
     -------
     bpy.types.Image
     """
-    image = put_pixels(image, name, stored_pixels(pixels), pixels.shape[1::-1], is_data=is_data)
-    image.pack()
+    return write_packed(image, name, packed_pixels(pixels, name), is_data=is_data)
+
+
+def packed_pixels(pixels, name):
+    """Return pixels, as `write_image` takes them, as the PNG that a .blend keeps; a thread may call it: no bpy."""
+    if pixels.dtype != np.uint8:
+        pixels = (np.clip(pixels, 0, 1) * np.float32(255) + np.float32(0.5)).astype(np.uint8)
+    return png_bytes(pixels, name)
+
+
+def write_packed(image, name, data, *, is_data):
+    """Put what `packed_pixels` gave into an image, which is replaced in place, or made if None; return it.
+
+    Blender takes the pixels out of it when they are first needed.
+    """
+    if image is None:
+        image = bpy.data.images.new(name, 1, 1, alpha=False, is_data=is_data)
+    image.pack(data=data, data_len=len(data))
+    # Has Blender drop the pixels that it had.
+    image.source = "FILE"
     return image
 
 
@@ -116,5 +134,6 @@ def _remember(key, pixels):
 
 def _memory_key(image):
     """What is another for every content that an image is likely to have had."""
-    packed = image.packed_file.size if image.packed_file else None
-    return image.session_uid, tuple(image.size), image.source, image.filepath, packed
+    # The size of an image would have Blender decode it.
+    size = image.packed_file.size if image.packed_file else tuple(image.size)
+    return image.session_uid, size, image.source, image.filepath

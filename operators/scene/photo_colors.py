@@ -7,6 +7,7 @@ them to nobody and no export takes them.
 import hashlib
 import json
 
+import bpy
 import numpy as np
 
 from ...reflcolor_addon.color.observed import Observed
@@ -19,6 +20,8 @@ _RGB, _WEIGHT, _PHOTO = ".seen_rgb", ".seen_weight", ".seen_photo"
 _KEY = "reflcolor_seen"
 # On objects: how the scan falls into each photo, as JSON; as last found, and as it was when the scan was colorized.
 _CAMERAS, _USED = "reflcolor_cameras", "reflcolor_used_cameras"
+# On objects: the image of each of these photos, which a person may rename, by its place in the list.
+_PHOTOS, _USED_PHOTOS = "reflcolor_camera_photos", "reflcolor_used_camera_photos"
 _BASES = np.array([1 << 16, 1 << 8, 1], np.int32)
 
 
@@ -34,7 +37,7 @@ def keep_observed(obj, observed):
         for name in (_RGB, _WEIGHT, _PHOTO):
             if name in obj.data.attributes:
                 obj.data.attributes.remove(obj.data.attributes[name])
-        for name in (_KEY, _CAMERAS):
+        for name in (_KEY, _CAMERAS, _PHOTOS):
             if name in obj:
                 del obj[name]
         return
@@ -82,16 +85,27 @@ def observed_reader(obj):
     return read
 
 
-def keep_cameras(obj, matches):
-    """Keep how an object's scan falls into each photo that was recognized; ``matches`` are `PhotoMatch`."""
+def keep_cameras(obj, matches, images=None):
+    """Keep how an object's scan falls into each photo that was recognized.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    matches : sequence of PhotoMatch
+    images : dict of str to bpy.types.Image or None, optional
+        The photos' images, by the names in ``matches``; not given where the file has none.
+    """
     models = [(match.name, match.model) for match in matches]
     found = [None if model is None else {"name": name, "model": model_document(model)} for name, model in models]
     obj[_CAMERAS] = json.dumps(found)
+    names = () if images is None else [match.name for match in matches]
+    obj[_PHOTOS] = {str(number): images.get(name) for number, name in enumerate(names)}
 
 
 def use_cameras(obj):
     """Keep the cameras with the colors: an object was colorized, and its attribute ``photo`` counts these photos."""
     obj[_USED] = obj.get(_CAMERAS, "[]")
+    obj[_USED_PHOTOS] = obj[_PHOTOS].to_dict() if _PHOTOS in obj else {}
 
 
 def cameras_of(obj):
@@ -101,3 +115,15 @@ def cameras_of(obj):
         return [None if each is None else (each["name"], model_of(each["model"])) for each in kept]
     except (ValueError, TypeError, KeyError, AttributeError):
         return []
+
+
+def camera_image(obj, number):
+    """Return the image of the photo that ``photo`` counts with a number; None where it is gone or was not recognized.
+
+    Where the file had no image when the photo was recognized, one that was loaded since goes by its name.
+    """
+    cameras, photos = cameras_of(obj), obj.get(_USED_PHOTOS)
+    if not 0 <= number < len(cameras) or cameras[number] is None:
+        return None
+    known = photos.to_dict() if hasattr(photos, "to_dict") else {}
+    return known[str(number)] if str(number) in known else bpy.data.images.get(cameras[number][0])

@@ -1,10 +1,13 @@
 """Photos as Blender's images, with what their files say about where they were taken."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
+from ...reflcolor_addon.errors import Cancelled
 from ...reflcolor_addon.files.photo import Photo, Place
 from ...reflcolor_addon.report.report import input_entry
-from .images import read_pixels, remember_pixels, write_image
+from .images import packed_pixels, read_pixels, remember_pixels, write_packed
 from .photo_list import list_photo
 from .provenance import record_photo
 
@@ -12,22 +15,50 @@ PLACE = "reflcolor_place"
 """On images: the nine numbers of `Place.rotation`, the three of its center, and its focal length."""
 
 
-def add_photos(context, photos, path):
-    """Make an image of each photo of a file and put it on the scene's list; return the images.
+@dataclass(frozen=True, eq=False)
+class PhotoFile:
+    """The photos of a file, ready to become images; made by `photo_file`.
 
-    Parameters
+    Attributes
     ----------
-    context : bpy.types.Context
+    entry : dict
+        From `input_entry`.
     photos : list of Photo
-    path : Path
-        The file.
+    packed : list of bytes
+        Each photo as `packed_pixels` gives it.
     """
-    entry, images = input_entry("photo", path), []
+
+    entry: dict
+    photos: list[Photo]
+    packed: list[bytes]
+
+
+def photo_file(photos, path, *, cancelled=None):
+    """Return the PhotoFile of a list of Photo that were read from a file; touches no bpy, a thread may call it.
+
+    Raises
+    ------
+    ReflcolorError
+        If the file can no longer be read, or a photo cannot be kept.
+    Cancelled
+        If ``cancelled()`` returned True.
+    """
+    entry, packed = input_entry("photo", path, cancelled), []
     for photo in photos:
+        if cancelled is not None and cancelled():
+            raise Cancelled
+        packed.append(packed_pixels(photo.rgb, photo.name))
+    return PhotoFile(entry, photos, packed)
+
+
+def add_photos(context, file):
+    """Make an image of each photo of a PhotoFile and put it on the scene's list; return the images."""
+    images = []
+    for photo, packed in zip(file.photos, file.packed, strict=True):
         # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
-        image = write_image(None, photo.name, photo.rgb, is_data=False)
+        image = write_packed(None, photo.name, packed, is_data=False)
         remember_pixels(image, photo.rgb)
-        record_photo(image, entry)
+        record_photo(image, file.entry)
         if photo.place is not None:
             image[PLACE] = [*photo.place.rotation.ravel().tolist(), *photo.place.center.tolist(), photo.place.focal_px]
         list_photo(context.scene, image)

@@ -7,35 +7,37 @@ from .scan_object import COLORIZED
 from .texts import tip, told
 
 
+def nothing_missing(cls, missing):
+    """Whether nothing is missing; if something is, a line that says what to do, the button's tooltip tells it."""
+    if missing:
+        cls.poll_message_set(missing)
+    return not missing
+
+
 def has_window(cls, context):
     """There is a window, not only a script."""
-    if bpy.app.background or context.window is None:
-        cls.poll_message_set(tip("Run this in Blender's window"))
-        return False
-    return True
+    windowless = bpy.app.background or context.window is None
+    return nothing_missing(cls, tip("Run this in Blender's window") if windowless else None)
 
 
 def has_scan(cls, context):
     """There is a scan that is meant."""
-    if scan_object(context) is None:
-        cls.poll_message_set(tip("Import a scan, or select one, first"))
-        return False
-    return True
+    return nothing_missing(cls, tip("Import a scan, or select one, first") if scan_object(context) is None else None)
 
 
 def has_own_scan(cls, context):
     """A scan's object is active, and this file keeps what becomes of its seeds."""
-    return has_scan(cls, context) and _says(cls, foreign_seeds(scan_object(context)))
+    return has_scan(cls, context) and nothing_missing(cls, foreign_seeds(scan_object(context)))
 
 
 def has_editable_scan(cls, context):
     """A scan's object is active, and its mesh can be written to."""
-    return has_scan(cls, context) and _says(cls, closed_mesh(scan_object(context)))
+    return has_scan(cls, context) and nothing_missing(cls, closed_mesh(scan_object(context)))
 
 
 def has_seeds(cls, context):
     """A scan's object is active and has seeds."""
-    return has_scan(cls, context) and _says(cls, no_seeds(scan_object(context)))
+    return has_scan(cls, context) and nothing_missing(cls, no_seeds(scan_object(context)))
 
 
 def has_scan_to_color(cls, context):
@@ -43,35 +45,28 @@ def has_scan_to_color(cls, context):
     if not has_editable_scan(cls, context):
         return False
     missing = [not_colorable(obj) for obj in scan_objects(context)]
-    return not all(missing) or _says(cls, missing[0])
+    return not all(missing) or nothing_missing(cls, missing[0])
 
 
 def has_selected_seeds(cls, context):
     """A scan's object is active and a seed of it is selected."""
     if not (has_own_scan(cls, context) and has_seeds(cls, context)):
         return False
-    if not any(seed.select for seed in scan_object(context).reflcolor.seeds):
-        cls.poll_message_set(tip("Select a seed first"))
-        return False
-    return True
+    selected = any(seed.select for seed in scan_object(context).reflcolor.seeds)
+    return nothing_missing(cls, None if selected else tip("Select a seed first"))
 
 
 def has_colors(cls, context):
     """A scan's object is active and was colorized."""
     if not has_scan(cls, context):
         return False
-    if COLORIZED not in scan_object(context).data.color_attributes:
-        cls.poll_message_set(tip("Colorize the scan first"))
-        return False
-    return True
+    colorized = COLORIZED in scan_object(context).data.color_attributes
+    return nothing_missing(cls, None if colorized else tip("Colorize the scan first"))
 
 
 def has_photos(cls, context):
     """There is a photo on the list."""
-    if not photo_settings(context.scene).photos:
-        cls.poll_message_set(tip("Load a photo first"))
-        return False
-    return True
+    return nothing_missing(cls, None if photo_settings(context.scene).photos else tip("Load a photo first"))
 
 
 def foreign_seeds(obj):
@@ -126,10 +121,3 @@ def fitting_scans(context, missing):
 
 def _is_scan(obj):
     return obj is not None and obj.type == "MESH" and obj.reflcolor.rows > 0
-
-
-def _says(cls, missing):
-    """Whether nothing is missing; if something is, the poll says so."""
-    if missing:
-        cls.poll_message_set(missing)
-    return not missing

@@ -9,7 +9,8 @@ from ...reflcolor_addon.view.framing import camera_in_region, picture_size
 from .collections import PICTURE, own_collection
 from .nodes import node_tree_of
 from .picture_material import give_look
-from .shown_surface import add_surface, remove_surface, switch_surface
+from .polls import closed_mesh
+from .shown_surface import add_surface, has_surface, remove_surface, switch_surface
 from .viewpoint import covered_by_sidebar, view_of
 
 # On objects: added for a picture; left out of pictures, which the person had not done.
@@ -51,7 +52,7 @@ def set_up_picture(context, obj, picture, surfaces):
         if scan.library is None:
             remove_surface(scan)
         if scan.name in surfaces:
-            add_surface(scan, surfaces[scan.name])
+            add_surface(scan, surfaces[scan.name], drop_mixed=picture.drop_mixed)
     follow_picture(scene, picture)
     scene.render.resolution_x, scene.render.resolution_y = picture_size(view.aspect)
     _set_up_scene(scene)
@@ -59,7 +60,7 @@ def set_up_picture(context, obj, picture, surfaces):
 
 def follow_picture(scene, picture):
     """Where the scene is set up for pictures, have its scans shown as a Picture says."""
-    if scene.camera is None or _ADDED not in scene.camera:
+    if not _is_set_up(scene):
         return
     toward_light = scene.camera.rotation_euler.to_matrix() @ _LIGHT_FROM
     for scan in scans_of(scene):
@@ -69,9 +70,27 @@ def follow_picture(scene, picture):
                 give_look(material, picture.look, toward_light)
 
 
+def lacks_surface(scene, picture):
+    """Whether the scene is set up for pictures, but without what a Picture would have them show of its scans."""
+    return (
+        _is_set_up(scene)
+        and picture.filled
+        and not all(has_surface(scan, drop_mixed=picture.drop_mixed) for scan in fillable_scans(scene))
+    )
+
+
 def scans_of(scene):
     """Return the objects of the scene's scans."""
     return [obj for obj in scene.objects if obj.reflcolor.rows]
+
+
+def fillable_scans(scene):
+    """Return those of the scene's scans that can be written to; the others are shown as they were measured."""
+    return [obj for obj in scans_of(scene) if closed_mesh(obj) is None and not obj.library and len(obj.data.vertices)]
+
+
+def _is_set_up(scene):
+    return scene.camera is not None and _ADDED in scene.camera
 
 
 def look_through_camera(context):

@@ -26,6 +26,8 @@ from .scan_object import (
 MODIFIER = "Shown Surface"
 FILLED, MIXED = "filled", "mixed"
 _SOURCE = "source"
+# On node groups: whether the holes that mixed returns leave are filled.
+_WITHOUT_MIXED = "reflcolor_without_mixed"
 _SMOOTHINGS = 4
 
 
@@ -43,16 +45,28 @@ def surface_maker(obj, *, drop_mixed):
     )
 
 
-def add_surface(obj, surface):
-    """Have renders show a ShownSurface on a scan's object; one that was there makes room."""
+def add_surface(obj, surface, *, drop_mixed):
+    """Have renders show a ShownSurface on a scan's object; one that was there makes room.
+
+    ``drop_mixed`` tells how the surface was made.
+    """
     remove_surface(obj)
     add_values(obj, MIXED, surface.mixed[grid_indices(obj)].astype(np.int32))
     vertex = vertex_of_pixels(obj)
     added = bpy.data.objects.new(f"{obj.name} {MODIFIER}", _mesh(obj, surface, vertex))
     modifier = obj.modifiers.new(MODIFIER, "NODES")
     modifier.node_group = _nodes(added)
+    modifier.node_group[_WITHOUT_MIXED] = drop_mixed
     modifier.show_viewport = False
     obj.modifiers.move(len(obj.modifiers) - 1, 0)
+
+
+def has_surface(obj, *, drop_mixed):
+    """Whether `switch_surface` can show a scan with its holes filled, and without mixed returns if they are dropped."""
+    modifier = obj.modifiers.get(MODIFIER)
+    if modifier is None or modifier.node_group is None:
+        return False
+    return not drop_mixed or bool(modifier.node_group.get(_WITHOUT_MIXED))
 
 
 def remove_surface(obj):

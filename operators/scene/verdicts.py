@@ -1,5 +1,7 @@
 """What was found of each photo on each scan."""
 
+from .texts import shown
+
 
 def verdict_of(obj, image):
     """Return the verdict on a photo, as the scan's object keeps it; None where they were not matched."""
@@ -19,4 +21,4 @@ def keep_verdicts(obj, matches):
             verdicts.remove(index)
     for image, match in matches:
         verdict = verdict_of(obj, image) or verdicts.add()
-        verdict.image, verdict.verified, verdict.note = image, match.verified, match.note
+        verdict.image, verdict.verified, verdict.note = image, match.verified, shown(match.note)

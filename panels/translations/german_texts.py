@@ -38,6 +38,8 @@ _PANELS = {
     "Renders keep each one's colors": "Renderbilder behalten die Farben von jedem",
     "Match the photo first": "Erst das Foto zuordnen",
     "Not found on this scan": "Auf diesem Scan nicht gefunden",
+    "Not matched with this scan": "Diesem Scan nicht zugeordnet",
+    "Set Up Render again to fill holes": "Löcher füllt „Bild einrichten“",
     "Row {row}, column {col}": "Zeile {row}, Spalte {col}",
     "Seed": "Saatpunkt",
     "Seed Color": "Farbe der Saatpunkte",
@@ -79,6 +81,7 @@ _JOBS = {
     "Simulate Laser Scan": "Laserscan simulieren",
     "Move Seeds or Stroke": "Saatpunkte ziehen oder Strich",
     "Set Up Render": "Rendern einrichten",
+    "Load Photo": "Foto laden",
 }
 
 _MISSING = {
@@ -117,6 +120,7 @@ _REPORTS = {
         "ohne die Einzelheiten von {photos}: nicht mehr unter den Bildern"
     ),
     "Writing {name}": "{name} wird geschrieben",
+    "Loading {file}": "{file} wird geladen",
     "{file}: cannot be written ({reason})": "{file}: nicht zu schreiben ({reason})",
     "{file}: cannot be written ({reason}); choose another folder": (
         "{file}: nicht zu schreiben ({reason}); einen anderen Ordner wählen"
