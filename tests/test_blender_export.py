@@ -1,11 +1,13 @@
 """File > Export of colorized scans, in Blender through the installed zip, read by other programs' readers."""
 
+import importlib
 import subprocess
 import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from blender_session import EXTENSION
 from colored_scans import tilted_pose, world_points
 from gltf_files import Glb, encoded
 from plyfile import PlyData
@@ -126,3 +128,15 @@ def test_blenders_own_ply_can_be_read_and_is_at_most_a_level_off(colorized, tmp_
     place = table["grid_row"].astype(int) * 10 + table["grid_col"].astype(int)
     colors = np.stack([table[channel] for channel in ("red", "green", "blue")], axis=1).astype(int)
     assert np.abs(colors - srgb(bpy.context.active_object, "Colorized")[place]).max() <= 1
+
+
+def test_scans_of_one_file_have_it_read_once_and_esc_ends_that(colorized, monkeypatch):
+    bpy, _ = colorized
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.colored_scan")
+    cancelled = importlib.import_module(f"{EXTENSION}.reflcolor_addon.errors").Cancelled
+    files, fingerprint = [], module.fingerprint
+    monkeypatch.setattr(module, "fingerprint", lambda path, ask: files.append(path) or fingerprint(path, ask))
+    read = module.colored_scans_reader([bpy.context.active_object] * 2)
+    assert [scan.source.name for scan in read()] == ["wall.ptx"] * 2 and len(files) == 1
+    with pytest.raises(cancelled):
+        read(lambda: True)

@@ -2,6 +2,7 @@
 
 import importlib
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -114,3 +115,19 @@ def test_a_later_search_in_photos_changes_no_camera_of_the_colors(colorized):
     assert module.cameras_of(obj) == [None]
     module.keep_observed(obj, None)
     assert module.cameras_of(obj) == [None]
+
+
+def test_the_photo_of_a_camera_is_known_whatever_its_image_is_called_now(colorized):
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.photo_colors")
+    models = importlib.import_module(f"{EXTENSION}.reflcolor_addon.matching.models")
+    obj, image = colorized.context.active_object, colorized.data.images.new("view.png", 4, 4)
+    match = SimpleNamespace(name="view.png", model=models.GridHomography(np.eye(3), SHAPE, 4, 4))
+    for images, found in (({"view.png": image}, image), (None, None)):
+        image.name = "view.png"
+        module.keep_cameras(obj, [match], images)
+        module.use_cameras(obj)
+        image.name = "renamed"
+        assert module.camera_image(obj, 0) == found
+    # A file made without its photos knows them by name alone.
+    image.name = "view.png"
+    assert module.camera_image(obj, 0) == image

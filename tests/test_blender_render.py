@@ -1,10 +1,12 @@
 """Set Up Render: a camera that shows the scan, and light."""
 
+import importlib
 import math
 
 import cv2
 import numpy as np
 import pytest
+from blender_session import EXTENSION
 from small_scans import random_scan, scan_from_ranges
 
 from reflcolor_addon.files.writers.ptx import write_ptx
@@ -190,3 +192,25 @@ def test_another_look_is_taken_up_at_once(holed, look):
     blender.context.scene.reflcolor.picture_look = look
     strength = [node.inputs["Strength"] for node in obj.active_material.node_tree.nodes if node.type == "EMISSION"]
     assert [socket.is_linked for socket in strength] == [look == "lit"]
+
+
+def test_the_panel_knows_that_holes_and_mixed_returns_need_another_set_up(startup_scan):
+    properties, render = (
+        importlib.import_module(f"{EXTENSION}.operators.scene.{name}") for name in ("properties", "render")
+    )
+    scene, chosen = startup_scan.context.scene, startup_scan.context.scene.reflcolor
+
+    def lacks():
+        return render.lacks_surface(scene, properties.scene_picture(scene))
+
+    assert not lacks()
+    chosen.picture_filled = chosen.picture_drop_mixed = False
+    found = []
+    for filled, drop_mixed in ((False, False), (True, False), (True, True)):
+        startup_scan.ops.reflcolor.set_up_render()
+        before = lacks()
+        chosen.picture_filled, chosen.picture_drop_mixed = filled, drop_mixed
+        found.append((before, lacks()))
+    assert found == [(False, False), (False, True), (False, True)]
+    chosen.picture_filled = chosen.picture_drop_mixed = False
+    assert not lacks()
