@@ -15,7 +15,7 @@ from reflcolor_addon.files.readers.scan_json import write_scan_json
 _FILES = {"pumpA": "pumpA/pumpAVisualReferenceImage.e57", "doria": "doria_ptx/1.ptx"}
 
 # The depth images were equalized: each of the 255 gray values occurs equally often, so no scale and offset fit. These
-# are the metres at every 16th value, found by making the overlaps of the views agree (a turn of 6 degrees per step of
+# are the meters at every 16th value, found by making the overlaps of the views agree (a turn of 6 degrees per step of
 # N, a field of view of 60 degrees: the residual is 0.3 % in the median) and setting the lawn 1.75 m below the scanner.
 # It comes out flat to 0.5 % as depth along the axis, and to 3 % as length of the ray: so depth it is.
 _VALUES = (*range(0, 241, 16), 254)

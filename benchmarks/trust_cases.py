@@ -278,17 +278,17 @@ def _enlarged(whole, name, factor):
 
 
 def _bremen(view):
-    """A view of a town square; its depth is equalized, and metres like those of the other views make it a scene."""
+    """A view of a town square; its depth is equalized, and meters like those of the other views make it a scene."""
     import tempfile
 
     folder = DATA / "bremen_views"
     with tempfile.TemporaryDirectory() as temporary:
         path = Path(temporary, f"bremen_{view}.scan.json")
-        metres = real_scans._METRES["15"]
+        meters = real_scans._METRES["15"]
         write_scan_json(
             path,
             range_image=folder / f"Depth_{view}.png",
-            range_table=list(zip(real_scans._VALUES, metres, strict=True)),
+            range_table=list(zip(real_scans._VALUES, meters, strict=True)),
             reflectance_image=folder / f"Intensity_{view}.png",
             model={"type": "pinhole", "fx": 311.77, "fy": 311.77, "cx": 179.5, "cy": 179.5},
         )
@@ -299,12 +299,12 @@ def _bremen(view):
 def _ouster(name):
     file, half = _OUSTER[name]
     with np.load(DATA / "ouster" / file) as arrays:
-        metres, gray = arrays["range"] / 1000.0, arrays["reflectivity"].astype(np.float32)
-    rows, columns = metres.shape
+        meters, gray = arrays["range"] / 1000.0, arrays["reflectivity"].astype(np.float32)
+    rows, columns = meters.shape
     up = np.radians(np.linspace(half, -half, rows))[:, None]
     turn = np.linspace(-np.pi, np.pi, columns, endpoint=False)[None]
     rays = np.stack([np.sin(turn) * np.cos(up), np.cos(turn) * np.cos(up), np.sin(up) + 0 * turn], axis=-1)
-    return Scan(name=name, points=rays * metres[..., None], reflectance=gray, valid=metres > 0)
+    return Scan(name=name, points=rays * meters[..., None], reflectance=gray, valid=meters > 0)
 
 
 def _grid_xy(whole):

@@ -154,7 +154,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         reading = self.read_options()
         options = {
             "max_incidence_deg": degrees(self.max_incidence),
-            "units_per_metre": 1 / context.scene.unit_settings.scale_length,
+            "units_per_meter": 1 / context.scene.unit_settings.scale_length,
         }
         if pair and (len(pair) not in (2, 3) or len(paths) != len(pair)):
             raise ScanError(

@@ -70,14 +70,14 @@ class REFLCOLOR_OT_simulate(JobOperator, bpy.types.Operator, ExportHelper):
     )
     greatest_range: FloatProperty(
         name="Greatest Range",
-        description="Nothing is measured beyond, in metres",
+        description="Nothing is measured beyond, in meters",
         default=_DEFAULT.range_limits_m[1],
         min=0.5,
         soft_max=500,
     )
     range_noise: FloatProperty(
         name="Range Noise",
-        description="Standard deviation of the range of a bright surface, in metres",
+        description="Standard deviation of the range of a bright surface, in meters",
         default=_DEFAULT.range_noise_m,
         min=0,
         soft_max=0.05,

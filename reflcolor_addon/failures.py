@@ -37,7 +37,7 @@ def line_of(error):
         if error.filename is None and _current_folder_is_gone():
             return Message("the current folder was deleted; change to another, or name files by their whole path")
         if error.filename is None:
-            return Message("the system refused something: {reason}", reason=reason)
+            return Message("the operating system reports: {reason}", reason=reason)
         return Message("{file}: {reason}", file=_text(error.filename), reason=reason)
     return None
 

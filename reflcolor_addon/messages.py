@@ -94,6 +94,11 @@ def value_of(text, name):
     return next((value for value in found if value is not None), None)
 
 
+def of_scan(scan, template, /, **values):
+    """Return a Message about one scan of a file: "scan 'wall': its color is ..."."""
+    return Message("scan '{scan}': {note}", scan=scan, note=Message(template, **values))
+
+
 def about_scan(text, scan):
     """Return a text that says which scan it is about, as one of several: by its value ``scan``, or put before it."""
     if value_of(text, "scan") is not None or text.startswith(f"{scan}: "):

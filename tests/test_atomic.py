@@ -62,7 +62,7 @@ def test_a_writer_that_leaves_no_whole_file_changes_nothing(tmp_path, written):
             if written is not None:
                 temporary.write_bytes(written)
 
-    assert "a.json: was not written whole (" in refusal(stump)
+    assert "a.json: was not written completely (" in refusal(stump)
     assert path.read_text() == "{}"
     assert names(tmp_path) == ["a.json"]
 

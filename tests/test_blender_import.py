@@ -177,7 +177,7 @@ def test_far_coordinates_are_shifted_and_the_shift_is_kept(blender, tmp_path):
     assert len(shifts) == 1
 
 
-def test_points_stored_in_world_coordinates_keep_their_millimetres(blender, data_dir):
+def test_points_stored_in_world_coordinates_keep_their_millimeters(blender, data_dir):
     path = data_dir / "robust" / "ptx" / "1.2-with-color.ptx"
     blender.ops.reflcolor.import_scan(filepath=str(path))
     obj, (scan,) = blender.context.active_object, read_scans(path)
@@ -186,7 +186,7 @@ def test_points_stored_in_world_coordinates_keep_their_millimetres(blender, data
     np.testing.assert_allclose(world, scan.points[rows, cols], atol=2e-3)
 
 
-def test_metres_follow_the_scenes_unit_scale(blender, small):
+def test_meters_follow_the_scenes_unit_scale(blender, small):
     blender.context.scene.unit_settings.scale_length = 0.01
     blender.ops.reflcolor.import_scan(filepath=str(small))
     np.testing.assert_allclose(np.linalg.norm(coordinates(blender.context.active_object), axis=1), 300, rtol=1e-5)

@@ -264,7 +264,7 @@ def test_several_scans_are_one_step_of_undo(seeded, matched):
 
 
 def world_m(bpy, name, scan):
-    """Where the vertices of an object are in metres, and where its scan with its pose has them."""
+    """Where the vertices of an object are in meters, and where its scan with its pose has them."""
     obj = bpy.data.objects[name]
     own = np.array([obj.matrix_world @ vertex.co for vertex in obj.data.vertices])
     points = scan.points[scan.valid] @ scan.pose[:3, :3].T + scan.pose[:3, 3]

@@ -43,7 +43,7 @@ SHAPE = (8, 12)
 
 @pytest.fixture(scope="module")
 def results(blender_command, tmp_path_factory):
-    """The folder of two small scans, 90 degrees and a few metres apart, colorized by the command."""
+    """The folder of two small scans, 90 degrees and a few meters apart, colorized by the command."""
     folder = tmp_path_factory.mktemp("site")
     turned = np.array([[0, -1, 0, 6], [1, 0, 0, -2], [0, 0, 1, 0.5], [0, 0, 0, 1]], float)
     for number, (name, pose) in enumerate(zip(NAMES, (np.eye(4), turned), strict=True)):

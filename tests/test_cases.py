@@ -64,7 +64,7 @@ def fields(points=HALL, rows=None, cols=None, keep=None, **more):
 
 def test_a_constant_intensity_is_told(case, tmp_path):
     for scan in (*case("ptx_constant_intensity.ptx"), *ptx(tmp_path, ptx_text(HALL, np.full(NAMES.shape, 1000.0)))):
-        assert "everywhere, as where a program knew none: it can be looked at, but not colorized" in scan.warnings[0]
+        assert "everywhere, as where a program knew none: it can be viewed, but not colorized" in scan.warnings[0]
 
 
 def test_the_luminance_of_colors_stands_in_for_a_constant_intensity(tmp_path):
@@ -142,7 +142,7 @@ def test_points_in_no_order_are_gridded_by_angle_when_that_is_asked_for(case, tm
 # Layouts
 
 
-def test_a_depth_camera_by_rows_in_millimetres_comes_in_upright_in_metres(case, tmp_path):
+def test_a_depth_camera_by_rows_in_millimeters_comes_in_upright_in_meters(case, tmp_path):
     (given,) = case("ptx_photoneo_like_rows_first_rowmajor_mm.ptx")
     right, down = np.meshgrid((np.arange(40) - 20) / 60, (np.arange(30) - 15) / 60)
     depth = 900 + 200 * right + 50 * np.sin(9 * down)
@@ -153,7 +153,7 @@ def test_a_depth_camera_by_rows_in_millimetres_comes_in_upright_in_metres(case, 
     for scan in (given, made):
         assert scan.shape == (30, 40)
         assert 0.7 < np.median(scan.range[scan.valid]) < 1.5
-        assert any("millimetres" in warning for warning in scan.warnings)
+        assert any("millimeters" in warning for warning in scan.warnings)
         top, bottom = (scan.points[rows][scan.valid[rows]][:, 2].mean() for rows in (slice(0, 5), slice(-5, None)))
         left, right = (scan.points[:, c][scan.valid[:, c]][:, 0].mean() for c in (slice(0, 5), slice(-5, None)))
         assert top > bottom and left < right

@@ -336,7 +336,7 @@ def test_seeds_come_from_the_colors_of_the_scan(run_cli, cli_folder):
     assert Seeds.load(cli_folder / "hall.json").reason == ("scan",) * 12
     assert_refused(run_cli("seeds", "garage.ptx", "--from-color", "5", "-o", "x.json"), 1, "came without colors")
     both = ("seeds", "hall.ptx", "--from-color", "5", "--photo", "a.png", "-o", "x.json")
-    assert_refused(run_cli(*both), 2, "--photo: has no part in seeds from the scan's own colors")
+    assert_refused(run_cli(*both), 2, "--photo: does not apply to seeds from the scan's own colors")
 
 
 def test_a_picture_is_as_the_options_say(run_cli, cli_folder):

@@ -259,7 +259,7 @@ def test_hand_picked_seeds_may_be_there_for_some_scans_only(run_cli, painted):
     Seeds([5], [6], [[1, 2, 3]]).save(painted / "east.hand.json")
     arguments = ("seeds", "south.ptx", "east.ptx", "--photo", "view.png", *PAPER, "--hand", "{scan}.hand.json")
     status, _, err = run_cli(*arguments, "-o", "{scan}.json")
-    assert (status, err) == (0, "warning: south.hand.json: no such file; nothing is picked by hand there\n")
+    assert (status, err) == (0, "warning: south.hand.json: no such file; that scan gets no pairs picked by hand\n")
     hand = [Seeds.load(f"{name}.json").reason.count("hand") for name in ("south", "east")]
     assert hand == [0, 1]
     (painted / "east.hand.json").unlink()

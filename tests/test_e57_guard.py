@@ -107,7 +107,7 @@ KINDS = {
     "not closed": (swap("</e57Root>", ""), "its XML section is damaged"),
     "something behind": (swap("</e57Root>", "</e57Root><more/>"), "its XML section is damaged"),
     "other root": (lambda xml: xml.replace("e57Root", "root"), "begins with root, expected e57Root"),
-    "no type": (swap('<guid type="String">', "<guid>"), "guid has the type None, expected one of E57's"),
+    "no type": (swap('<guid type="String">', "<guid>"), "guid has the type None, which E57 does not define"),
     "unknown type": (swap('<guid type="String">', '<guid type="Text">'), "guid has the type Text"),
     "text among nodes": (insert(ROOT, "words"), "e57Root holds text, expected nodes"),
     "a node inside of a value": (
@@ -128,9 +128,9 @@ KINDS = {
     ),
     "a prototype of structures": (
         swap('<prototype type="Structure">', '<prototype type="Structure"><a type="Structure"></a>'),
-        "its prototype holds what is no number",
+        "its prototype holds something other than numbers",
     ),
-    "codecs that are no list": (swap('<codecs type="Vector"', '<codecs type="Structure"'), "its codecs are no list"),
+    "codecs that are no list": (swap('<codecs type="Vector"', '<codecs type="Structure"'), "its codecs are not a list"),
     "points in a list of one kind": (
         swap(LIST, LIST.replace('"1"', '"0"')),
         "points lies inside of a list that allows only children of one kind",
@@ -178,13 +178,13 @@ KINDS = {
     ),
     "scans that are no structures": (
         lambda xml: without("<vectorChild", "</vectorChild>")(xml).replace(LIST, LIST + '<vectorChild type="Float"/>'),
-        "data3D is no list of scans",
+        "data3D is not a list of scans",
     ),
     "a structure instead of scans": (
         lambda xml: without("<vectorChild", "</vectorChild>")(xml).replace(
             LIST, '<data3D type="Structure"><a type="Structure"/>'
         ),
-        "data3D is no list of scans",
+        "data3D is not a list of scans",
     ),
 }
 

@@ -15,12 +15,12 @@ def turned(degrees, place=(0.0, 0.0, 0.0)):
     return pose
 
 
-def test_a_matrix_in_metres_is_the_pose():
+def test_a_matrix_in_meters_is_the_pose():
     pose = turned(30, (1, 2, 3))
     np.testing.assert_allclose(rigid_pose(pose, 1.0, NOWHERE), pose, atol=1e-12)
 
 
-def test_places_are_brought_to_metres():
+def test_places_are_brought_to_meters():
     np.testing.assert_allclose(rigid_pose(turned(30, (100, 200, 300)), 0.01, NOWHERE), turned(30, (1, 2, 3)))
 
 

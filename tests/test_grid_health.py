@@ -121,7 +121,7 @@ def test_the_place_of_the_scanner_is_found_from_the_grid_alone(swapped, place):
     np.testing.assert_allclose(origin.place, place, rtol=0, atol=1e-5)
 
 
-def test_the_place_is_found_to_millimetres_with_noise_and_outliers():
+def test_the_place_is_found_to_millimeters_with_noise_and_outliers():
     rng = np.random.default_rng(5)
     points = ROOM * (1 + rng.normal(0, 0.0005, (*THERE.shape, 1))) + (35.0, 12.0, 2.0)
     points[rng.random(THERE.shape) < 0.03] += 0.5

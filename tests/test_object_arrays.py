@@ -46,11 +46,11 @@ def test_every_array_is_as_blender_stores_it(scan):
         np.testing.assert_array_equal(found, values[name].astype(found.dtype))
 
 
-def test_coordinates_are_in_blenders_units_and_the_pose_in_metres(scan):
-    arrays = object_arrays(scan, units_per_metre=100.0)
+def test_coordinates_are_in_blenders_units_and_the_pose_in_meters(scan):
+    arrays = object_arrays(scan, units_per_meter=100.0)
     np.testing.assert_array_equal(arrays.coordinates.reshape(-1, 3), (scan.points[scan.valid] * 100).astype(np.float32))
     np.testing.assert_array_equal(arrays.pose, scan.pose)
-    assert arrays.units_per_metre == 100
+    assert arrays.units_per_meter == 100
 
 
 def test_points_in_world_coordinates_are_measured_from_a_center_that_the_pose_holds(scan):

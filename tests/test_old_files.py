@@ -33,7 +33,7 @@ def test_a_report_is_read():
 def test_verify_says_that_a_report_of_then_has_no_hashes(run_cli, tmp_path):
     shutil.copytree(OLD, tmp_path, dirs_exist_ok=True)
     status, out, err = run_cli("verify", "wall.json")
-    line = "error: wall.json: does not tell the hashes of its outputs; it was written by an earlier release\n"
+    line = "error: wall.json: does not hold the hashes of its outputs; it was written by an earlier release\n"
     assert (status, out) == (1, "") and err.endswith(line)
 
 

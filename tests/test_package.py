@@ -70,7 +70,7 @@ def test_the_command_line_runs_as_a_program(installed, tmp_path):
     assert (done.returncode, done.stdout) == (0, f"reflcolor {__version__}\n")
 
 
-def test_the_package_says_that_it_is_typed_and_brings_its_licence(installed):
+def test_the_package_says_that_it_is_typed_and_brings_its_license(installed):
     assert (installed / "reflcolor_addon" / "py.typed").is_file()
     assert next(installed.glob("*.dist-info/licenses/LICENSE")).is_file()
 

@@ -70,7 +70,7 @@ def test_floating_point_holds_meters_unless_they_are_thousands(pair, values, sca
 def test_eight_bits_are_a_guess_and_it_is_said(pair):
     depth, infrared = camera()
     preview = previewed(pair(depth=(depth / 10).astype(np.uint8), infrared=infrared))
-    assert "8 bits do not tell their scale; 10 m is a guess" in preview.doubts[0]
+    assert "8 bits do not give their scale; 10 m is a guess" in preview.doubts[0]
     told = pair({"range_scale": 0.01}, depth=(depth / 10).astype(np.uint8), infrared=infrared)
     assert previewed(told).doubts == ()
 
@@ -79,7 +79,7 @@ def test_a_bowl_of_360_degrees_is_doubted(pair):
     depth, infrared = camera()
     around = {"type": "spherical", "azimuth_deg": (-180, 180), "elevation_deg": (-45, 90)}
     doubts = previewed(pair({"model": around, "range_scale": 0.0001}, depth=depth, infrared=infrared)).doubts
-    assert "a full turn of points 0.18 m away is a bowl" in doubts[0]
+    assert "all around, its points are 0.18 m away, as in a bowl" in doubts[0]
     assert "left and right edge do not meet" in doubts[1]
 
 

@@ -34,10 +34,10 @@ def scan(**changes):
     [
         ({"points": np.full((2, 3, 3), 2e9)}, r"^wall: a valid pixel has a point of 2e\+09, expected at most 1e\+09$"),
         ({"reflectance": np.full((2, 3), 1e35)}, "a reflectance of 1e"),
-        ({"pose": pose(at03=1e299)}, "the pose is none of a scanner"),
-        ({"pose": pose(at00=1e9)}, "the pose is none of a scanner"),
-        ({"pose": pose(at00=0.0)}, "the pose is none of a scanner"),
-        ({"pose": pose(at33=2.0)}, "the pose is none of a scanner"),
+        ({"pose": pose(at03=1e299)}, "the pose is not that of a scanner"),
+        ({"pose": pose(at00=1e9)}, "the pose is not that of a scanner"),
+        ({"pose": pose(at00=0.0)}, "the pose is not that of a scanner"),
+        ({"pose": pose(at33=2.0)}, "the pose is not that of a scanner"),
         ({"pose": pose(at00=np.nan)}, "not finite"),
         (
             {"valid": np.broadcast_to(True, (MOST_PIXELS, 2))},
@@ -122,7 +122,7 @@ def test_many_scans_that_are_left_out_are_counted(tmp_path):
     path.write_text(good + ptx_text(np.zeros((1, 1, 3)), np.zeros((1, 1))) * 1000)
     (found,) = read_scans(path)
     assert len(found.warnings) == 6
-    assert found.warnings[-1] == "left out: 995 more scans, for such reasons"
+    assert found.warnings[-1] == "left out: 995 more scans, for similar reasons"
 
 
 def test_a_ptx_of_many_scans_can_be_cancelled_between_any_two(tmp_path):

@@ -269,7 +269,7 @@ def test_an_unstructured_scan_is_told_what_to_do(tmp_path):
     message = failure(tmp_path, {"fields": fields, "name": "yard"})
     assert message.startswith(
         "garage.e57: scan 'yard' is unstructured (its points have no rowIndex and columnIndex); "
-        "export it as PTX or as a structured (gridded) E57, or let a grid be laid over its points: --grid angle"
+        "export it as PTX or as a structured (gridded) E57, or have a grid laid over its points: --grid angle"
     )
     assert "none of its 2 scans can be used: scan" in failure(tmp_path, {"fields": fields}, {"fields": fields})
 
@@ -295,7 +295,9 @@ def test_a_grid_that_asks_for_terabytes_is_refused(tmp_path):
 
 def test_row_numbers_that_are_no_whole_numbers_are_refused(tmp_path):
     row = np.mgrid[:HEIGHT, :WIDTH][0] + 0.5
-    assert "rowIndex holds what is no whole number" in failure(tmp_path, {"fields": scan_fields(rowIndex=row)})
+    assert "rowIndex holds values that are not whole numbers" in failure(
+        tmp_path, {"fields": scan_fields(rowIndex=row)}
+    )
 
 
 def test_a_file_without_points_or_returns_is_refused(tmp_path):

@@ -196,15 +196,15 @@ def test_a_range_with_uneven_angles_is_a_grid(tmp_path, by_pixel):
         elevation, azimuth = np.meshgrid(elevation, azimuth, indexing="ij")
         # Beams that are set off from each other, as those of spinning lidars.
         azimuth = azimuth + np.arange(10)[:, None] * 0.3
-    millimetres = np.random.default_rng(3).integers(2000, 2100, (10, 60))
-    (scan,) = save(tmp_path, range=millimetres, azimuth_deg=azimuth, elevation_deg=elevation, signal=NAMES[:10, :60])
+    millimeters = np.random.default_rng(3).integers(2000, 2100, (10, 60))
+    (scan,) = save(tmp_path, range=millimeters, azimuth_deg=azimuth, elevation_deg=elevation, signal=NAMES[:10, :60])
     found = np.degrees(np.arctan2(scan.points[..., 2], np.hypot(scan.points[..., 0], scan.points[..., 1])))
     np.testing.assert_allclose(
         found, np.broadcast_to(elevation if by_pixel else elevation[:, None], (10, 60)), atol=1e-9
     )
     right = np.degrees(np.arctan2(scan.points[..., 0], scan.points[..., 1]))
     np.testing.assert_allclose(right, np.broadcast_to(azimuth, (10, 60)), atol=1e-9)
-    np.testing.assert_allclose(scan.range, millimetres / 1000)
+    np.testing.assert_allclose(scan.range, millimeters / 1000)
 
 
 @pytest.mark.parametrize(
@@ -214,7 +214,7 @@ def test_a_range_with_uneven_angles_is_a_grid(tmp_path, by_pixel):
         ({"range": np.ones((4, 5)), "azimuth": np.ones(7), "elevation": np.ones(4)}, "do not fit the range's size"),
         ({"x": np.ones((4, 5)), "y": np.ones((4, 5)), "z": np.ones((4, 6))}, "differ in size"),
         ({"xyz": np.ones((4, 5, 2))}, "holds an array of 4 x 5 x 2"),
-        ({"xyz": np.array([object()])}, "claims more than"),
+        ({"xyz": np.array([object()])}, "claims more data than"),
     ],
 )
 def test_arrays_that_are_no_scan_are_told(tmp_path, arrays, said):
@@ -252,7 +252,7 @@ def test_points_in_scanning_order_are_gridded_from_where_the_scanner_stood(tmp_p
 
 @pytest.mark.parametrize("suffix", REFUSED)
 def test_a_closed_format_names_the_way_out(tmp_path, suffix):
-    with pytest.raises(ScanError, match=f"hall\\{suffix}: this format is not read. .*(export|save)"):
+    with pytest.raises(ScanError, match=f"hall\\{suffix}: this format is not supported. .*(export|save)"):
         read(tmp_path, f"hall{suffix}", b"something")
 
 

@@ -146,7 +146,7 @@ def test_float_ranges_without_a_number_above_zero_are_no_returns(folder, hole):
     assert np.array_equal(scan.points[scan.valid][:, 1], depth[scan.valid].astype(float))
 
 
-def test_a_table_gives_the_metres_of_values_that_are_no_linear_measure(folder):
+def test_a_table_gives_the_meters_of_values_that_are_no_linear_measure(folder):
     save(folder / "depth.png", np.arange(1, 81, dtype=np.uint8).reshape(HEIGHT, WIDTH))
     scan = read(folder, range_scale=None, range_table=[[0, 1.0], [40, 3.0], [80, 43.0]])
     assert scan.points[0, 0, 1] == pytest.approx(1.05)
@@ -181,14 +181,14 @@ def test_gray_colors_are_no_colors(folder):
         ({"range": 7}, "range: expected a text in one line, found 7"),
         ({"rnage_scale": 1}, "rnage_scale: unknown key, expected one of format, version, range, "),
         ({"range_scale": "x"}, 'range_scale: expected a number from 1e-12 to 1,000,000, found "x"'),
-        ({"range_scale": None}, "range_scale: missing; depth.png holds whole numbers, say how many metres one is"),
+        ({"range_scale": None}, "range_scale: missing; depth.png holds whole numbers: give the meters per unit"),
         ({"range_scale": 0}, "range_scale: expected a number from 1e-12 to 1,000,000, found 0"),
         ({"range_scale": True}, "range_scale: expected a number from 1e-12 to 1,000,000, found true"),
         ({"range_scale": 10**400}, "range_scale: expected a number from 1e-12 to 1,000,000, found 1000"),
         ({"range_offset": [1]}, "range_offset: expected a number from -1,000,000,000 to 1,000,000,000, found [1]"),
         ({"range_type": "time"}, 'range_type: expected "depth" or "ray", found "time"'),
         ({"model": PANORAMA, "range_type": "depth"}, 'range_type: expected "ray", found "depth"'),
-        ({"range_table": [[0, 1], [1, 2]]}, "range_table: stands instead of range_scale"),
+        ({"range_table": [[0, 1], [1, 2]]}, "range_table: replaces range_scale"),
         ({"range_scale": None, "range_table": [[0, 1]]}, "range_table: expected a list of at least two"),
         ({"range_scale": None, "range_table": [[1, 1], [0, 2]]}, "range_table: expected a list of at least two"),
         ({"color_order": "cmyk"}, 'color_order: expected "rgb" or "bgr", found "cmyk"'),
@@ -232,7 +232,7 @@ def test_numbers_that_are_not_finite_are_refused(folder):
         ("{\n'format'", "line 2, column 1: expected a JSON description"),
         ("[]", "expected a JSON object"),
         ("{" * 100, "line 1, column 2: expected a JSON description of a scan"),
-        ('{"a":' * 100_000, "found what JSON cannot hold"),
+        ('{"a":' * 100_000, "found values that JSON cannot hold"),
     ],
 )
 def test_what_is_no_json_is_told(folder, text, said):
@@ -336,7 +336,7 @@ def test_a_range_that_was_stretched_to_16_bits_keeps_its_farthest_return(folder)
     assert scan.valid.all() and scan.warnings == ()
 
 
-def test_a_pose_in_millimetres_keeps_the_points_and_is_told(folder):
+def test_a_pose_in_millimeters_keeps_the_points_and_is_told(folder):
     pose = np.eye(4) * [0.001, 0.001, 0.001, 1]
     scan = read(folder, pose=pose.tolist())
     np.testing.assert_allclose(scan.points, read(folder).points)

@@ -302,7 +302,7 @@ def test_a_size_that_does_not_fit_into_memory_is_refused(tmp_path, monkeypatch):
 
 def test_more_points_than_announced_are_told(tmp_path):
     (scan,) = read(tmp_path, ptx_text(POINTS, INTENSITY) + "1 2 3 4\n")
-    assert "line 137: what follows its last scan is none, and was left out: '1 2 3 4'" in scan.warnings[-1]
+    assert "line 137: what follows its last scan is not a scan and was left out: '1 2 3 4'" in scan.warnings[-1]
 
 
 def test_a_scan_without_any_return_is_refused(tmp_path):

@@ -103,7 +103,7 @@ def test_a_file_with_a_byte_order_mark_is_read(seeds_path):
     [
         (b"", "is empty, expected a JSON file of seeds"),
         (b'{"format": "reflcolor-seeds",\n "version": }', "line 2, column 13: expected a JSON file of seeds"),
-        (b"\xff\xfe\x00", "found bytes that are no text"),
+        (b"\xff\xfe\x00", "found bytes that are not text"),
         (b"[" * 100_000, "expected a JSON file of seeds"),
         (b'{"seeds": [' + b"1" * 5000 + b"]}", "expected a JSON file of seeds"),
         (b"[]", '"format": "reflcolor-seeds"'),

@@ -158,7 +158,7 @@ def test_what_is_not_rendered_is_not_scanned(blender, renders):
     assert not found.valid.any()
 
 
-def test_ranges_are_metres_whatever_the_scenes_unit(blender, renders):
+def test_ranges_are_meters_whatever_the_scenes_unit(blender, renders):
     blender.context.scene.unit_settings.scale_length = 0.01
     add_box(blender, (0, 0, -50), (20000, 20000, 100))
     found, _ = scan(renders, blender, at_height(1.5))

@@ -12,8 +12,8 @@ from reflcolor_addon import read_scans
 from reflcolor_addon.files.images import read_image
 from reflcolor_addon.simulation.virtual_scanner import ScannerModel
 
-# A floor, a red wall five metres ahead (along Y) of "Station", two cameras, and an object to stand at, turned to look
-# along -X, where a blue wall is three metres away.
+# A floor, a red wall five meters ahead (along Y) of "Station", two cameras, and an object to stand at, turned to look
+# along -X, where a blue wall is three meters away.
 MAKE_SCENE = """
 import bpy, os, sys
 bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
@@ -199,7 +199,7 @@ def test_every_option_reaches_the_scanner(asked):
         (("--camera", "a", "--object", "b"), 2, "--object"),
         (("--full-turn", "--width-deg", "90"), 2, "--width-deg"),
         (("--elevation-deg", "10"), 2, "--elevation-deg"),
-        (("--plain-photos",), 2, "--plain-photos says how photos are taken; give --photos, too"),
+        (("--plain-photos",), 2, "--plain-photos applies to photos; give --photos, too"),
         (("--photo-samples", "3"), 2, "--photo-samples says how"),
         (("-o", "yard.obj"), 2, "yard.obj: the suffix tells what to write; expected one of .ptx, .e57, .scan.json"),
         (("--rows", "0"), 2, "--rows and --columns: expected 1 or more"),

@@ -1,10 +1,11 @@
-"""The extension's texts in German: complete, with the same parts, and none that is asked for no more."""
+"""The extension's texts in German: all of them, with the same parts, and none of a text that is gone."""
 
 import importlib
 import re
 import string
 import sys
 
+import core_texts
 import pytest
 import ui_strings
 from blender_session import EXTENSION
@@ -19,13 +20,13 @@ def german(installed_blender):
 
 @pytest.fixture
 def asked(blender):
-    """(context, text) of all that is looked up, but lines of the core."""
+    """(context, text) of everything that is looked up, except the lines of the core."""
     return ui_strings.class_strings(blender) | ui_strings.source_strings()
 
 
 @pytest.fixture
-def core_lines(installed_blender):
-    return importlib.import_module(f"{TEXTS}.german_texts").CORE
+def core_german(installed_blender):
+    return importlib.import_module(TEXTS).CORE
 
 
 def parts(text):
@@ -37,13 +38,29 @@ def test_every_text_has_its_german(german, asked):
     assert sorted(asked - set(german)) == []
 
 
-def test_no_german_is_left_of_texts_that_are_gone(german, asked, core_lines):
-    assert sorted(set(german) - asked - {("*", line) for line in core_lines}) == []
+def test_no_german_is_left_of_texts_that_are_gone(german, asked, core_german):
+    core = {("*", form) for template in core_german for form in (template, template.removeprefix("{file}: "))}
+    assert sorted(set(german) - asked - core) == []
 
 
-def test_lines_of_the_core_are_said_there(core_lines):
-    said = ui_strings.core_templates()
-    assert [line for line in core_lines if line not in said] == []
+def test_every_line_of_the_core_that_the_window_can_show_has_its_german(core_german):
+    templates = core_texts.window_templates()
+    assert {text: places for text, places in templates.items() if text not in core_german} == {}
+
+
+def test_no_german_is_left_of_lines_of_the_core_that_are_gone(core_german):
+    assert sorted(core_german.keys() - core_texts.window_templates().keys()) == []
+
+
+def test_every_template_of_the_core_is_written_out():
+    """One that is put together of parts would never be found in the catalog."""
+    assert core_texts.unknown_templates() == []
+
+
+def test_lines_about_a_file_begin_with_it_in_german_too(core_german):
+    """What the readers say about one of several scans is shown without the file."""
+    begins = "{file}: "
+    assert [text for text, german in core_german.items() if text.startswith(begins) > german.startswith(begins)] == []
 
 
 def test_a_translation_has_the_parts_of_its_text(german):
@@ -61,19 +78,19 @@ def test_translations_end_and_begin_like_their_texts(german):
     assert small == {}
 
 
-def test_texts_that_are_put_together_go_through_the_catalogue():
+def test_texts_that_are_put_together_go_through_the_catalog():
     assert ui_strings.unsaid_parts() == []
 
 
-def test_the_catalogue_is_taken_off_with_the_extension(installed_blender):
-    catalogue = importlib.import_module(TEXTS)
-    catalogue.unregister()
-    catalogue.register()
+def test_the_catalog_is_taken_off_with_the_extension(installed_blender):
+    catalog = importlib.import_module(TEXTS)
+    catalog.unregister()
+    catalog.register()
 
 
 @pytest.fixture
 def texts(installed_blender, monkeypatch):
-    """The helpers, with a catalogue that knows two lines of the core."""
+    """The helpers, with a catalog that knows two lines of the core."""
     module = sys.modules[f"{EXTENSION}.operators.scene.texts"]
     known = {
         "seed {seed}: no return at row {row}": "Saatpunkt {seed}: keine Messung in Zeile {row}",

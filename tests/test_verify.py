@@ -80,4 +80,4 @@ def test_a_report_that_cannot_be_read_is_refused(run_cli, cli_folder):
     assert_refused(run_cli("verify", "gone.json"), 1, "gone.json: no such file")
     assert_refused(run_cli("verify", "garage.ptx"), 1, "garage.ptx: ", "expected a report in JSON")
     (cli_folder / "r.json").write_bytes(b"\xff\xfe")
-    assert_refused(run_cli("verify", "r.json"), 1, "r.json: expected a report in JSON, found bytes that are no text")
+    assert_refused(run_cli("verify", "r.json"), 1, "r.json: expected a report in JSON, found bytes that are not text")

@@ -108,7 +108,7 @@ def test_points_that_are_no_part_of_the_scan_have_no_color_and_are_counted(tmp_p
     scans = read_scans(source)
     colors = given_colors(scans)
     warnings = write_e57_colors(source, {0: colors[0]}, made)
-    assert warnings == ["made.e57: scan 'hall 1': 5 of 3,600 points have no color: they are no part of its grid"]
+    assert warnings == ["made.e57: scan 'hall 1': 5 of 3,600 points have no color: they are not part of its grid"]
     # The other scan, which was given none, has none.
     assert not set(RGB) & records(made, 1).keys()
     assert "isColorInvalid" in pye57.E57(str(made)).get_header(0).point_fields

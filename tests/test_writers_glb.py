@@ -89,7 +89,7 @@ def test_trimesh_reads_surface_and_points(wall):
     assert (np.einsum("ij,ij->i", meshes[0].face_normals, towards) > 0).all()
 
 
-def test_the_shift_of_a_far_scan_is_told_and_keeps_millimetres(tmp_path):
+def test_the_shift_of_a_far_scan_is_told_and_keeps_millimeters(tmp_path):
     scan, rgb, _ = colored_wall(pose=tilted_pose((4_500_123.25, -512_345.5, 301.0)))
     write_glb([surface_of(scan, rgb)], tmp_path / "far.glb")
     glb = Glb(tmp_path / "far.glb")

@@ -1,4 +1,4 @@
-"""Every text of the extension that Blender's catalogue is asked for, as (context, text)."""
+"""Every text of the extension that Blender's catalog is asked for, as (context, text)."""
 
 import ast
 from pathlib import Path
@@ -151,15 +151,3 @@ def _shown(node):
     if name in _LAYOUT and not untranslated:
         return [keyword.value for keyword in node.keywords if keyword.arg == "text"]
     return []
-
-
-def core_templates():
-    """The lines that the core makes of numbers and words, with {} for what is put in."""
-    found = set()
-    for path in (ROOT / "reflcolor_addon").rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.JoinedStr):
-                found.add("".join(part.value if isinstance(part, ast.Constant) else "{}" for part in node.values))
-            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-                found.add(node.value)
-    return found

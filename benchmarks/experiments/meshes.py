@@ -44,7 +44,7 @@ class Renderer:
         colors : list of (H, W, 3) uint8, optional
             sRGB of each scan's pixels; by default its reflectance.
         view : (position, target, field of view in degrees), optional
-            World metres; by default the first scan as its scanner saw it.
+            World meters; by default the first scan as its scanner saw it.
         """
         bpy, objects = self._bpy, self._objects
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

@@ -108,7 +108,7 @@ def camera_off_line(scanner_position, target, degrees_off, *, focal_px, size=(80
 def write_photos(photos, folder):
     """Write photos, by their names, and all that is true of them.
 
-    Beside each photo its depth in millimetres as 16-bit PNG; ``cameras.json`` says where exactly it was taken from.
+    Beside each photo its depth in millimeters as 16-bit PNG; ``cameras.json`` says where exactly it was taken from.
     """
     for name, photo in photos.items():
         write_photo(photo, folder / name)

@@ -12,9 +12,9 @@ typedef struct {
     int32_t stride; /* of a plane: width + 2 */
     int32_t width;
     float beta;
-    unsigned allowed; /* bit 4 * row + column of the 3 x 3 neighbourhood */
+    unsigned allowed; /* bit 4 * row + column of the 3 x 3 neighborhood */
     int wrap;
-    float cost[12]; /* constant part of the step to each neighbour, rows of four */
+    float cost[12]; /* constant part of the step to each neighbor, rows of four */
     int32_t offset[12];
 } rc_steps;
 

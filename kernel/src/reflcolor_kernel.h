@@ -42,7 +42,7 @@ typedef struct {
     int64_t height;
     int64_t width;
     int32_t neighbors; /* 4 or 8 */
-    int32_t wrap;      /* the left and the right edge are neighbours */
+    int32_t wrap;      /* the left and the right edge are neighbors */
     float beta;        /* weight of the squared range difference, equation 6 */
     float step_cost;   /* constant cost of a straight step; a diagonal one pays sqrt(2) times as much */
     const float *y;

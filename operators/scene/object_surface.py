@@ -15,18 +15,18 @@ _DTYPES = {"FLOAT": np.float32, "INT": np.int32}
 def surface_of_object(context, obj):
     """Return the MeshSurface of a scan's object, with the colors that renders show.
 
-    It is in metres, with the kilometres that were taken off the scene added again.
+    It is in meters, with the kilometers that were taken off the scene added again.
 
     Raises
     ------
     ScanError
         If the mesh has not one color per vertex any more.
     """
-    metres = context.scene.unit_settings.scale_length
+    meters = context.scene.unit_settings.scale_length
     center = np.array(obj.data.get(CENTER, (0, 0, 0)), np.float64)
     pose = np.array(obj.matrix_world, np.float64)
     shift = np.array(obj.get(SHIFT, (0, 0, 0)), np.float64)
-    pose[:3, 3] = pose[:3, 3] * metres + shift - pose[:3, :3] @ center
+    pose[:3, 3] = pose[:3, 3] * meters + shift - pose[:3, :3] @ center
     with _evaluated(context, obj) as mesh:
         faces, triangles = _faces(mesh)
         return MeshSurface(
@@ -34,7 +34,7 @@ def surface_of_object(context, obj):
             shape=(obj.reflcolor.rows, obj.reflcolor.cols),
             pose=pose,
             center=center,
-            points=_values(mesh.vertices, "co", np.float32, 3).astype(np.float64) * metres + center,
+            points=_values(mesh.vertices, "co", np.float32, 3).astype(np.float64) * meters + center,
             rgb=_colors(mesh, obj),
             values=_attributes(mesh),
             faces=faces,

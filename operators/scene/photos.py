@@ -73,7 +73,7 @@ def photo_of(image, shift):
     ----------
     image : bpy.types.Image
     shift : (3,) float64
-        What was taken off the scene's coordinates, metres.
+        What was taken off the scene's coordinates, meters.
     """
     pixels, stored = read_pixels(image), image.get(PLACE)
     if pixels is None:

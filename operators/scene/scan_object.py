@@ -27,7 +27,7 @@ OBSERVED = "observed"
 PHOTO = "photo"
 ERROR = "error"
 SHIFT = "reflcolor_shift"
-# On meshes: what the coordinates are measured from, metres in the scanner's frame; degrees, as in `grid_mesh`.
+# On meshes: what the coordinates are measured from, meters in the scanner's frame; degrees, as in `grid_mesh`.
 CENTER, MAX_INCIDENCE = "reflcolor_center", "reflcolor_max_incidence"
 # On meshes: how many vertices the scan has.
 RETURNS = "reflcolor_returns"
@@ -48,7 +48,7 @@ def add_scan_object(context, arrays):
     keep_settings(DEFAULT_PRESET, [scene])
     pose = arrays.pose.copy()
     shift = origin_shift(pose[:3, 3], scene.get(SHIFT))
-    pose[:3, 3] = (pose[:3, 3] - shift) * arrays.units_per_metre
+    pose[:3, 3] = (pose[:3, 3] - shift) * arrays.units_per_meter
 
     mesh = bpy.data.meshes.new(arrays.name)
     _fill_mesh(mesh, arrays)
@@ -96,7 +96,7 @@ def scan_of(obj, *, colors=None):
 def scan_reader(obj):
     """Return a function that makes the Scan that an object was made from; it touches no bpy, a thread may call it.
 
-    The scan's pose is where the object is now, without its scale and without the kilometres of `SHIFT`.
+    The scan's pose is where the object is now, without its scale and without the kilometers of `SHIFT`.
 
     Raises
     ------
@@ -107,14 +107,14 @@ def scan_reader(obj):
     place = grid_indices(obj)
     measured = values_of(obj, "reflectance", np.float32)
     coordinates = coordinates_of(mesh)
-    metres = bpy.context.scene.unit_settings.scale_length
+    meters = bpy.context.scene.unit_settings.scale_length
     center = np.array(mesh.get(CENTER, (0, 0, 0)))
-    pose = rigid_pose(obj.matrix_world, metres, center)
+    pose = rigid_pose(obj.matrix_world, meters, center)
 
     def read():
         reflectance, points, valid = np.zeros(shape, np.float32), np.zeros((*shape, 3)), np.zeros(shape, bool)
         reflectance[place], valid[place] = measured, True
-        points[place] = coordinates.astype(np.float64) * metres + center
+        points[place] = coordinates.astype(np.float64) * meters + center
         return Scan(name=name, points=points, reflectance=reflectance, valid=valid, pose=pose)
 
     return read

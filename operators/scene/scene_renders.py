@@ -31,11 +31,11 @@ _NAME = "reflcolor simulation"
 
 
 class SceneRenders:
-    """Renders of one scene without touching it; a context manager. Lengths in and out are metres."""
+    """Renders of one scene without touching it; a context manager. Lengths in and out are meters."""
 
     def __init__(self, scene):
         self._source = scene
-        self._metres = scene.unit_settings.scale_length
+        self._meters = scene.unit_settings.scale_length
 
     def __enter__(self):
         self._undo = ExitStack()
@@ -100,7 +100,7 @@ class SceneRenders:
         light = _stack(self._render(*size), ("Combined",), "RGB")
         # Depth at the very middle of every pixel; among the paths of the light it would be that of any place in it.
         cycles.samples, cycles.filter_width, cycles.max_bounces = 1, 0.01, 0
-        depth = self._in_metres(_find(self._render(*size), ("Depth",), "Z"))
+        depth = self._in_meters(_find(self._render(*size), ("Depth",), "Z"))
         image = camera.develop(camera.distort(light, margin))
         return Photo(camera, image, camera.distort(depth, margin, blend=False))
 
@@ -136,18 +136,18 @@ class SceneRenders:
         pose = scanner_matrix @ turn @ Matrix.Rotation(radians(90), 4, "X")
         self._camera.matrix_world = pose
         channels = self._render(azimuths.size, rows.size)
-        distance = self._in_metres(_find(channels, ("Depth",), "Z").astype(np.float64))
+        distance = self._in_meters(_find(channels, ("Depth",), "Z").astype(np.float64))
         hits = _hits(channels, distance, np.array(pose)[:3, :3], azimuths, elevations[rows])
         source = np.clip(np.arange(elevations.size) - rows[0], 0, rows.size - 1)
         return Hits(**{key: getattr(hits, key)[source] for key in ("range", "cos_incidence", "albedo", "color")})
 
     def _matrix(self, pose):
         matrix = Matrix(np.asarray(pose, np.float64).tolist())
-        matrix.translation /= self._metres
+        matrix.translation /= self._meters
         return matrix
 
-    def _in_metres(self, depth):
-        return np.where(depth < _NOTHING, depth * self._metres, np.inf)
+    def _in_meters(self, depth):
+        return np.where(depth < _NOTHING, depth * self._meters, np.inf)
 
     def _render(self, width, height):
         render = self._scene.render

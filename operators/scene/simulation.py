@@ -32,7 +32,7 @@ class Simulation:
         The scan: .ptx, .e57 or .scan.json. What else is written goes beside it, named after it: ``NAME.truth.png``, for
         each photo ``NAME.CAMERA.png``, and ``NAME.cameras.json``, which says exactly where those were taken from.
     pose : (4, 4) float64
-        Scanner (Z up, looking along +Y) to world, metres.
+        Scanner (Z up, looking along +Y) to world, meters.
     model : ScannerModel
     truth : bool
         Write the true color of every pixel of the scan, as an image.
@@ -138,7 +138,7 @@ def leveled_pose(scene, station, item):
     Returns
     -------
     (4, 4) float64
-        Metres.
+        Meters.
 
     Raises
     ------
@@ -157,7 +157,7 @@ def photo_cameras(scene, station):
     return tuple(item.name for item in scene.objects if item.type == "CAMERA" and item != station)
 
 
-def leveled(matrix, metres_per_unit, axis=1, sign=1.0):
+def leveled(matrix, meters_per_unit, axis=1, sign=1.0):
     """Return the (4, 4) float64 pose of a leveled scanner at a matrix's place, looking along one of its axes."""
     across, along, up = (sign * matrix.col[axis][i] for i in range(3))
     if hypot(across, along) < 1e-6 * abs(up):
@@ -166,7 +166,7 @@ def leveled(matrix, metres_per_unit, axis=1, sign=1.0):
     turn = atan2(-across, along)
     pose = np.eye(4)
     pose[:2, :2] = [[cos(turn), -sin(turn)], [sin(turn), cos(turn)]]
-    pose[:3, 3] = np.array(matrix.translation, np.float64) * metres_per_unit
+    pose[:3, 3] = np.array(matrix.translation, np.float64) * meters_per_unit
     return pose
 
 

@@ -1,4 +1,4 @@
-"""Texts made of parts, through Blender's catalogue: the template is looked up, then the parts are put in.
+"""Texts made of parts, through Blender's catalog: the template is looked up, then the parts are put in.
 
 A text that is whole needs none of this where Blender looks it up itself: names and tooltips of classes and properties,
 labels and buttons, and what operators report.

@@ -103,7 +103,7 @@ _SCANS = {
     ),
     "International feet": ("Internationale Fuß"),
     "As depth cameras count": ("Wie Tiefenkameras zählen"),
-    "Metres, unless the points tell otherwise": ("Meter, wenn die Punkte nichts anderes sagen"),
+    "Meters, unless the points tell otherwise": ("Meter, wenn die Punkte nichts anderes sagen"),
     "What the coordinates in the file count": ("Was die Koordinaten in der Datei zählen"),
     "By a quarter to the left": ("Um ein Viertel nach links"),
     "Upside down": ("Auf den Kopf"),
@@ -221,7 +221,7 @@ _SIMULATION = {
         "Jedem Foto eigene Belichtung, eigenen Weißabgleich, eigene Verzeichnung und eigenes Rauschen geben"
     ),
     "Light paths for each pixel of a photo": "Lichtwege für jedes Pixel eines Fotos",
-    "Nothing is measured beyond, in metres": "Darüber hinaus wird nichts gemessen, in Metern",
+    "Nothing is measured beyond, in meters": "Darüber hinaus wird nichts gemessen, in Metern",
     "Start of the random numbers; the same start gives the same scan": (
         "Anfang der Zufallszahlen; derselbe Anfang gibt denselben Scan"
     ),
@@ -229,7 +229,7 @@ _SIMULATION = {
     "Pixels from top to bottom": "Pixel von oben nach unten",
     "Scan all around": "Rundum scannen",
     "Share of the pixels that give no return for no reason": "Anteil der Pixel, die ohne Grund keine Messung geben",
-    "Standard deviation of the range of a bright surface, in metres": (
+    "Standard deviation of the range of a bright surface, in meters": (
         "Standardabweichung der Entfernung einer hellen Oberfläche, in Metern"
     ),
     "Standard deviation of the reflectance, relative to it": (

@@ -6,6 +6,7 @@ from ..color.spreader import bytes_of_colorizing
 from ..errors import ReflcolorError
 from ..files.images import image_size
 from ..files.memory import available_bytes, readable
+from ..messages import Message
 from .plan import MESH, RENDER, SCANS, SCENE
 
 # Bytes at the worst moment of each step, beside the scans that are there; docs/reliability.md tells how they were
@@ -35,26 +36,26 @@ def require_run(plan, jobs):
     """
     steps = {}
     if plan.seeds is None and plan.from_color is None and plan.colors is None:
-        steps["finding seeds"] = bytes_of_matching(jobs, plan.photos)
+        steps[Message("finding seeds")] = bytes_of_matching(jobs, plan.photos)
     pixels = [job.opened().valid.size for job in jobs]
     if plan.needs_colors:
         kept = _RESULT * sum(pixels)
         if plan.colors is None:
-            steps["colorizing"] = kept + max(_colorizing(job, plan.settings) for job in jobs)
+            steps[Message("colorizing")] = kept + max(_colorizing(job, plan.settings) for job in jobs)
         for output in plan.outputs:
             together = max(pixels) if output.is_of_each else sum(pixels)
-            steps[f"writing {output.path.name}"] = kept + _WRITING.get(output.kind, 0) * together
+            steps[Message("writing {name}", name=output.path.name)] = kept + _WRITING.get(output.kind, 0) * together
     _require(steps, ", ".join(dict.fromkeys(str(path) for path in plan.scans)))
 
 
 def require_matching(jobs, photos):
     """The same for finding seeds alone."""
-    _require({"finding seeds": bytes_of_matching(jobs, photos)}, ", ".join(job.name for job in jobs))
+    _require({Message("finding seeds"): bytes_of_matching(jobs, photos)}, ", ".join(job.name for job in jobs))
 
 
 def require_objects(scans, path):
     """The same for making objects of the scans of a file in Blender."""
-    _require({"making meshes": _WRITING[SCENE] * sum(scan.valid.size for scan in scans)}, path.name)
+    _require({Message("making meshes"): _WRITING[SCENE] * sum(scan.valid.size for scan in scans)}, path.name)
 
 
 def bytes_of_matching(jobs, photos):
@@ -97,7 +98,7 @@ def _require(steps, what):
     step, needed = max(steps.items(), key=lambda item: item[1], default=("", 0))
     if available is not None and needed > available:
         raise ReflcolorError(
-            "{what}: needs about {needed} of memory for {step}, and {free} are free; read every second row and column "
+            "{what}: {step} needs about {needed} of memory, and {free} are free; read every second row and column "
             "(step 2), or fewer scans at once",
             what=what,
             needed=readable(needed),

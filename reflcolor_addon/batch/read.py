@@ -107,7 +107,7 @@ def _add_hand(jobs, plan, given, session):
         elif path.is_file():
             job.hand = Seeds.load(path, plan.photos)
         else:
-            session.warnings.append(Message("{path}: no such file; nothing is picked by hand there", path=path))
+            session.warnings.append(Message("{path}: no such file; that scan gets no pairs picked by hand", path=path))
     for job, path in zip(jobs, paths, strict=True):
         if job.hand is not None and len(job.hand):
             check_place(job.hand, path, job.scan)
@@ -139,12 +139,17 @@ def choose_scan(scans, wanted, path, *, all_of_them=False):
         found = [(index, scan) for index, scan in indexed if scan.name == wanted]
         found = found or [(index, scan) for index, scan in indexed if str(index) == wanted]
         problem = Message(
-            "--scan {wanted} means {count} of the scans in {path}", wanted=wanted, count=len(found) or "none", path=path
+            "--scan {wanted} means {count} of the scans in {path}",
+            wanted=wanted,
+            count=len(found) or Message("none"),
+            path=path,
         )
     if len(found) != 1:
-        template = "{problem}; choose one by --scan NAME or --scan INDEX: {listing}"
-        if all_of_them:
-            template += "; --scan all takes every one"
+        template = (
+            "{problem}; choose one by --scan NAME or --scan INDEX: {listing}; --scan all takes every one"
+            if all_of_them
+            else "{problem}; choose one by --scan NAME or --scan INDEX: {listing}"
+        )
         listing = ", ".join(f"{index} ({scan.name})" for index, scan in indexed)
         raise UsageError(template, problem=problem, listing=listing)
     return found[0]

@@ -51,7 +51,7 @@ def add_reading(parser):
         "--unit",
         choices=(AUTO, *UNITS),
         default=default.unit,
-        help="what the coordinates count (default %(default)s: metres, unless the points tell otherwise)",
+        help="what the coordinates count (default %(default)s: meters, unless the points tell otherwise)",
     )
     group.add_argument(
         "--step",

@@ -170,7 +170,9 @@ class Colorizer:
         if held is None or held[0] is not spread or held[1] is not observed or held[2] != ranks:
             self._seen = None
             rows, columns = self.scan.shape
-            require_memory(_JOIN_BYTES * rows * columns, f"{self.scan.name}: joining what photos saw")
+            require_memory(
+                _JOIN_BYTES * rows * columns, Message("{scan}: joining what photos saw", scan=self.scan.name)
+            )
 
             def work(control):
                 ranked = outranked(observed, seeds, self._spreader.graph, self.settings.alpha, control)

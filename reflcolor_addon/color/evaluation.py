@@ -94,16 +94,16 @@ def _check(rgb, truth, valid):
     if kind.kind != "b":
         raise ScanError("valid: expected booleans, found {kind}; write valid > 0", kind=str(kind))
     expected = (*np.shape(valid), 3)
-    for name, image in (("colors", rgb), ("true colors", truth)):
+    for name, image in ((Message("colors"), rgb), (Message("true colors"), truth)):
         if np.shape(image) != expected:
             raise ScanError(
                 "{image}: expected an image of shape {shape}, found {found}",
-                image=Message(name),
+                image=name,
                 shape=expected,
                 found=np.shape(image),
             )
         if (found := np.asarray(image).dtype) != np.uint8:
-            raise ScanError("{image}: expected uint8, found {found}", image=Message(name), found=str(found))
+            raise ScanError("{image}: expected uint8, found {found}", image=name, found=str(found))
     if not np.any(valid):
         raise ScanError("no pixel has both a return and a true color, so there is nothing to compare")
 

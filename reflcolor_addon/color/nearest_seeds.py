@@ -119,8 +119,8 @@ def _part_of(progress, start, end):
 
 def _found(engine, pixels, k, known, threads, progress, cancelled):
     def tell(control):
-        text = Message("{nearest} nearest of {count} seeds", nearest=k, count=len(pixels))
-        progress(min(1, control.done / len(pixels)), text)
+        share = min(1, control.done / len(pixels))
+        progress(share, Message("{nearest} nearest of {count} seeds", nearest=k, count=len(pixels)))
 
     def search(control):
         return engine.nearest(pixels, k, control, threads=threads, known=known)
@@ -132,4 +132,7 @@ def _require_memory(engine, k, shape):
     """More seeds than were expected to be enough need more memory; raises ReflcolorError."""
     _, _, per_nearest = engine.memory
     rows, columns = shape
-    require_memory(per_nearest * k * rows * columns, f"{k} nearest seeds of {rows} rows x {columns} columns")
+    require_memory(
+        per_nearest * k * rows * columns,
+        Message("{nearest} nearest seeds of {rows} rows x {columns} columns", nearest=k, rows=rows, columns=columns),
+    )

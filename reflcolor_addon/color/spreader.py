@@ -206,7 +206,12 @@ class Spreader:
     def _require_memory(self, seeds):
         rows, columns = self.scan.shape
         needed = bytes_of_colorizing(self.scan.shape, seeds, self.settings, engine=self._engine, threads=self.threads)
-        require_memory(needed, f"{self.scan.name}: colorizing {rows} rows x {columns} columns")
+        require_memory(
+            needed,
+            Message(
+                "{scan}: colorizing {rows} rows x {columns} columns", scan=self.scan.name, rows=rows, columns=columns
+            ),
+        )
 
     def _propagate(self, pixels, values, progress, cancelled):
         """Return the mean of eq. 1, how it was found, what lies near the seeds, and a function of another alpha.

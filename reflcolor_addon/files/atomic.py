@@ -12,7 +12,7 @@ from .several_names import complete_rewriting, rewrite
 from .whole import fault_of
 from .work_folder import work_folder
 
-_NOT_WHOLE = "{file}: was not written whole ({fault}); see whether the disk is full. What was there before is kept"
+_NOT_WHOLE = "{file}: was not written completely ({fault}); check whether the disk is full. Any earlier file was kept"
 _FAILED = "{file}: cannot be written ({reason})"
 
 
@@ -65,7 +65,9 @@ def require_writable(path):
             file.write(b"\0")
     except OSError as error:
         reason = error.strerror or error
-        raise OutputError(f"{_FAILED}; choose a folder that you may write to", file=path, reason=reason) from error
+        raise OutputError(
+            "{file}: cannot be written ({reason}); choose a folder that you may write to", file=path, reason=reason
+        ) from error
 
 
 def _destination(path):
@@ -81,9 +83,9 @@ def _destination(path):
     if stat.S_ISDIR(found.st_mode):
         raise OutputError("{file}: cannot be written: it is a directory; name a file", file=path)
     if not stat.S_ISREG(found.st_mode):
-        raise OutputError("{file}: cannot be written: it is no ordinary file; name another", file=path)
+        raise OutputError("{file}: cannot be written: it is not an ordinary file; name another", file=path)
     if not os.access(target, os.W_OK):
-        raise OutputError("{file}: cannot be written: it is there and write-protected; choose another name", file=path)
+        raise OutputError("{file}: cannot be written: it exists and is write-protected; choose another name", file=path)
     return target, found
 
 

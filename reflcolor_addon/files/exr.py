@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ImageError
+from ..messages import Message
 from .gate import contents
 from .image_size import require_size
 
 _MAGIC = b"\x76\x2f\x31\x01"
-_TILED, _DEEP, _MULTIPART = 0x200, 0x800, 0x1000
+_UNREAD = ((0x200, Message("tiled")), (0x800, Message("deep")), (0x1000, Message("in several parts")))
 _TYPES = (np.dtype("<u4"), np.dtype("<f2"), np.dtype("<f4"))
 _COMPRESSIONS = ("NONE", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB")
 _ROWS_PER_CHUNK = {"NONE": 1, "RLE": 1, "ZIPS": 1, "ZIP": 16}
@@ -43,33 +44,35 @@ def read_exr_channels(path):
     ImageError
         If the file cannot be read, is no EXR, is of a kind that is not read, or is cut short.
     """
-    return exr_channels(contents(path, "an EXR picture", error=ImageError, most=_LARGEST_FILE), Path(path).name)
+    return exr_channels(
+        contents(path, Message("an EXR picture"), error=ImageError, most=_LARGEST_FILE), Path(path).name
+    )
 
 
 def exr_channels(data, name):
     """Return what `read_exr_channels` does, of the bytes of a file and its name for messages."""
     if not is_exr(data):
-        raise ImageError("{file}: not an EXR picture by its first bytes", file=name)
+        raise ImageError("{file}: its first bytes are not those of an EXR image", file=name)
     try:
         return _channels(data, name)
     except (KeyError, IndexError, struct.error, zlib.error, ValueError, OverflowError) as error:
         if isinstance(error, ImageError):
             raise
-        raise ImageError("{file}: not a whole EXR picture: it is damaged or cut short", file=name) from None
+        raise ImageError("{file}: not a complete EXR image: it is damaged or cut short", file=name) from None
     except MemoryError:
         raise ImageError("{file}: does not fit into memory", file=name) from None
 
 
 def _channels(data, name):
     flags, attributes, at = _header(data)
-    for flag, kind in ((_TILED, "tiled"), (_DEEP, "deep"), (_MULTIPART, "in several parts")):
+    for flag, kind in _UNREAD:
         if flags & flag:
             raise ImageError("{file}: is {kind}, expected an EXR of one part in scan lines", file=name, kind=kind)
     number = attributes["compression"][0]
     compression = _COMPRESSIONS[number] if number < len(_COMPRESSIONS) else f"number {number}"
     if compression not in _ROWS_PER_CHUNK:
         raise ImageError(
-            "{file}: compressed with {found}, expected ZIP or none: save it so", file=name, found=compression
+            "{file}: compressed with {found}, expected ZIP or none: save it that way", file=name, found=compression
         )
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1

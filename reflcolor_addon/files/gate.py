@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from ..errors import Cancelled, ReflcolorError
+from ..messages import Message
 from .memory import readable, require_memory
 
 _CHUNK = 1 << 24
@@ -127,14 +128,14 @@ def beside(path, name, *, outside=False):
 def _require_ordinary(found, path, expected, error):
     if stat.S_ISREG(found.st_mode):
         return
-    kind = next((name for test, name in _KINDS if test(found.st_mode)), "no ordinary file")
+    kind = next((name for test, name in _KINDS if test(found.st_mode)), Message("not an ordinary file"))
     raise error("{file}: is {kind}, expected {expected}", file=path, kind=kind, expected=expected)
 
 
 _KINDS = (
-    (stat.S_ISDIR, "a directory"),
-    (stat.S_ISFIFO, "a pipe"),
-    (stat.S_ISSOCK, "a socket"),
-    (stat.S_ISCHR, "a device"),
-    (stat.S_ISBLK, "a device"),
+    (stat.S_ISDIR, Message("a directory")),
+    (stat.S_ISFIFO, Message("a pipe")),
+    (stat.S_ISSOCK, Message("a socket")),
+    (stat.S_ISCHR, Message("a device")),
+    (stat.S_ISBLK, Message("a device")),
 )

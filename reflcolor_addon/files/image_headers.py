@@ -4,11 +4,12 @@ import struct
 from dataclasses import dataclass
 
 from ..errors import ImageError
+from ..messages import Message
 from .exr import is_exr
 from .image_size import require_size
 from .tiff import TiffLayout, is_tiff, tiff_layout
 
-EXPECTED = "an image (PNG, JPEG, TIFF, WebP, BMP or EXR)"
+EXPECTED = Message("an image (PNG, JPEG, TIFF, WebP, BMP or EXR)")
 PNG, JPEG, TIFF, WEBP, BMP, EXR = "PNG", "JPEG", "TIFF", "WebP", "BMP", "EXR"
 _PNG_CHANNELS = {0: 1, 2: 3, 3: 3, 4: 4, 6: 4}
 _PNG_WITH_ALPHA = (4, 6)
@@ -58,7 +59,7 @@ def image_header(data, name):
     if kind is None:
         if data[4:12] in _HEIC:
             raise ImageError(
-                "{file}: is a HEIC photo, which is not read; save it as JPEG or PNG (expected {expected})",
+                "{file}: is a HEIC photo, which is not supported; save it as JPEG or PNG (expected {expected})",
                 file=name,
                 expected=EXPECTED,
             )

@@ -1,6 +1,7 @@
 """Whether a picture's size, as its header claims it, is one to work with."""
 
 from ..errors import ImageError
+from ..messages import Message
 from ..scan.limits import MOST_PIXELS
 from .memory import require_memory
 
@@ -38,4 +39,8 @@ def require_size(width, height, pixel_bytes, name, *, most):
             width=width,
             height=height,
         )
-    require_memory(size * _COPIES, f"{name}: {width:,} x {height:,} pixels", error=ImageError)
+    require_memory(
+        size * _COPIES,
+        Message("{file}: {width:,} x {height:,} pixels", file=name, width=width, height=height),
+        error=ImageError,
+    )

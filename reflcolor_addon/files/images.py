@@ -115,7 +115,9 @@ def _in_srgb(image, data, name, warnings):
     if profile is None:
         return image
     if not profile.known and warnings is not None:
-        text = "{file}: its color profile{name} is one of tables, which is not followed; its colors are taken as sRGB"
+        text = (
+            "{file}: its color profile{name} consists of tables, which are not supported; its colors are taken as sRGB"
+        )
         warnings.append(Message(text, file=name, name=f" ({profile.name})" if profile.name else ""))
     return profile.to_srgb(image)
 

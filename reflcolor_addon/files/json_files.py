@@ -29,7 +29,7 @@ def _parsed(data, path, expected, error):
         return json.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError as wrong:
         raise error(
-            "{file}: expected {expected}, found bytes that are no text", file=path, expected=expected
+            "{file}: expected {expected}, found bytes that are not text", file=path, expected=expected
         ) from wrong
     except json.JSONDecodeError as wrong:
         raise error(
@@ -41,4 +41,6 @@ def _parsed(data, path, expected, error):
             problem=wrong.msg,
         ) from wrong
     except (ValueError, RecursionError) as wrong:  # a number of thousands of digits, brackets without end
-        raise error("{file}: expected {expected}, found what JSON cannot hold", file=path, expected=expected) from wrong
+        raise error(
+            "{file}: expected {expected}, found values that JSON cannot hold", file=path, expected=expected
+        ) from wrong

@@ -25,7 +25,12 @@ def require_memory(needed, what, *, error=ReflcolorError):
     """Raise `error` in one line if `needed` bytes for `what` are more than there are."""
     available = available_bytes()
     if available is not None and needed > available:
-        raise error(f"{what} needs about {readable(needed)} of memory, and {readable(available)} are free")
+        raise error(
+            "{what} needs about {needed} of memory, and {free} are free",
+            what=what,
+            needed=readable(needed),
+            free=readable(available),
+        )
 
 
 def readable(count):

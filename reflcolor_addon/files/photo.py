@@ -14,7 +14,7 @@ class Place:
     rotation : (3, 3) float64
         Its axes in the world, one a row: to the right, down, ahead.
     center : (3,) float64
-        World coordinates, metres.
+        World coordinates, meters.
     focal_px : float
         Focal length in pixels of the photo.
     """

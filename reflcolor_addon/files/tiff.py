@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ImageError
+from ..messages import Message
 
 SIGNATURES = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _FORMATS = {1: "B", 2: "B", 3: "H", 4: "I", 6: "b", 7: "B", 8: "h", 9: "i", 13: "I", 16: "Q"}
@@ -105,37 +106,41 @@ def _layout(tags, file_size, name):
     formats = set(tags.get(339, (_UNSIGNED,))[:samples])
     extra = tags.get(338, ())
     if tags.get(254, (0,))[0] & 1:
-        refuse("a reduced picture in the first place, as raw photos have", "a developed one")
+        refuse(Message("a reduced image as its first one, as raw photos have"), Message("a developed photo"))
     if not 1 <= samples <= 64 or len(depths) != 1 or len(formats) != 1:
-        refuse("samples of several kinds", "the same bits and format for all")
+        refuse(Message("samples of several kinds"), Message("the same bits and format for all"))
     if compression not in _COMPRESSIONS:
-        refuse(f"the compression {compression}", f"one of {', '.join(dict.fromkeys(_COMPRESSIONS.values()))}")
+        known = ", ".join(dict.fromkeys(_COMPRESSIONS.values()))
+        refuse(Message("the compression {number}", number=compression), Message("one of {choices}", choices=known))
     (bits,), (form,) = depths, formats
     if photometric not in (*_COLORS, _PALETTE, _YCBCR):
-        refuse(f"the photometric {photometric}", "gray or RGB")
+        refuse(Message("the photometric interpretation {number}", number=photometric), Message("gray or RGB"))
     colors = _COLORS.get(photometric, samples)
     if colors > samples:
-        refuse(f"{samples} samples", f"{colors} at least")
+        refuse(Message("{count} samples", count=samples), Message("at least {count}", count=colors))
     alpha = next((colors + place for place, kind in enumerate(extra) if kind in (_MULTIPLIED, _ALONE)), None)
     if alpha is not None and alpha >= samples:
-        refuse("an opacity that is none of its samples", "one")
+        refuse(Message("an alpha channel that is not one of its samples"), Message("one of them"))
     dtype = None
     if photometric in _COLORS and compression != _JPEG:
         if bits not in (8, 16, 32, 64) or form not in _KINDS or (form == _FLOATING and bits == 8):
-            refuse(f"{bits} bits of the format {form}", "8, 16, 32 or 64 bits, whole numbers or floating point")
+            refuse(
+                Message("{bits} bits of the format {number}", bits=bits, number=form),
+                Message("8, 16, 32 or 64 bits, whole numbers or floating point"),
+            )
         dtype = np.dtype(f"{_KINDS[form]}{bits // 8}")
         if photometric == _WHITE_IS_ZERO and dtype.kind != "u":
-            refuse("white as zero in numbers that have no greatest", "black as zero")
+            refuse(Message("white as zero in numbers without a greatest value"), Message("black as zero"))
         if (
             predictor not in (1, 2, 3)
             or ((predictor == 2) and dtype.kind == "f")
             or ((predictor == 3) and dtype.kind != "f")
         ):
-            refuse(f"the predictor {predictor}", "1, 2 or, for floating point, 3")
+            refuse(Message("the predictor {number}", number=predictor), Message("1, 2 or, for floating point, 3"))
     elif bits != 8 or extra or form not in (_UNSIGNED, _UNDEFINED) or tags.get(284, (1,))[0] != 1:
-        refuse("a palette, YCbCr or JPEG in another layout than the usual", "gray or RGB")
+        refuse(Message("a palette, YCbCr or JPEG in an unusual layout"), Message("gray or RGB"))
     elif tags.get(274, (1,))[0] != 1:
-        refuse("a palette, YCbCr or JPEG that is turned", "an upright one")
+        refuse(Message("a palette, YCbCr or JPEG that is turned"), Message("an upright one"))
     tile = (tags[322][0], tags[323][0]) if 322 in tags else None
     rows = max(1, min(tags.get(278, (height,))[0], height))
     planar = samples > 1 and tags.get(284, (1,))[0] == 2

@@ -129,7 +129,7 @@ def library():
     """The library; a ReflcolorError says why there is none."""
     loaded, why = _load()
     if loaded is None:
-        raise ReflcolorError(why)
+        raise ReflcolorError("the native kernel did not load: {reason}", reason=why)
     return loaded
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from ..errors import ReflcolorError
 from ..files.json_files import read_json
+from ..messages import Message
 from ..seeds.sources import EVIDENCE, FOUND, GUESSED, HAND, IN_PHOTO
 from .report import FORMAT, VERSION
 
@@ -57,7 +58,7 @@ def parse_provenance(text):
     try:
         report = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise ReflcolorError("the provenance is no JSON") from error
+        raise ReflcolorError("the provenance is not JSON") from error
     return _checked(report)
 
 
@@ -77,7 +78,7 @@ def read_report(path):
     ReflcolorError
         If the file cannot be read, or holds no report that this version can read.
     """
-    report = read_json(path, "a report in JSON", most=_LARGEST_FILE)
+    report = read_json(path, Message("a report in JSON"), most=_LARGEST_FILE)
     try:
         return _checked(report)
     except ReflcolorError as error:

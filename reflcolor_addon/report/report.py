@@ -13,6 +13,7 @@ from ..errors import Cancelled
 from ..files.atomic import written_atomically
 from ..files.gate import opened, size_of
 from ..files.readers.options import AS_IT_IS
+from ..messages import Message
 from ..scan.normalization import PERCENTILES
 from ..version import __version__
 
@@ -196,7 +197,7 @@ def seed_entries(seeds, given):
 def fingerprint(path, cancelled=None):
     """Return the size and the SHA-256 of a file, as ``{"bytes": ..., "sha256": ...}``; raises as `input_entry`."""
     digest = hashlib.sha256()
-    with opened(path, "an ordinary file", may_be_empty=True) as file:
+    with opened(path, Message("an ordinary file"), may_be_empty=True) as file:
         size = left = size_of(file)
         while left and (chunk := file.read(min(left, _CHUNK_BYTES))):
             if cancelled is not None and cancelled():

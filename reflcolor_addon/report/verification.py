@@ -60,7 +60,7 @@ def verify_outputs(report, report_path, cancelled=None):
         ]
     except (KeyError, TypeError, ValueError):
         raise ReflcolorError(
-            "{file}: does not tell the hashes of its outputs; it was written by an earlier release", file=report_path
+            "{file}: does not hold the hashes of its outputs; it was written by an earlier release", file=report_path
         ) from None
     return [_verified(*entry, cancelled) for entry in entries]
 

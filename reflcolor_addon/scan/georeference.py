@@ -1,8 +1,8 @@
-"""Large coordinates brought near the origin, where float32 still resolves a millimetre."""
+"""Large coordinates brought near the origin, where float32 still resolves a millimeter."""
 
 import numpy as np
 
-# Metres; beyond this a float32 is coarser than about a millimetre.
+# Meters; beyond this a float32 is coarser than about a millimeter.
 FAR = 10_000.0
 _ROUND_TO = 1000.0
 
@@ -13,14 +13,14 @@ def origin_shift(position, known=None):
     Parameters
     ----------
     position : (3,) float64
-        A scan's place in the world, metres.
+        A scan's place in the world, meters.
     known : (3,) float64, optional
         The shift of scans that came before; kept where it serves this one too, so that they stay together.
 
     Returns
     -------
     (3,) float64
-        Whole kilometres on each axis where the position is far out; 0 elsewhere.
+        Whole kilometers on each axis where the position is far out; 0 elsewhere.
     """
     position = np.asarray(position, np.float64)
     if known is not None and np.all(np.abs(position - known) < FAR):
@@ -39,7 +39,7 @@ def local_center(scan):
     return np.round(np.median(points, axis=0) / _ROUND_TO) * _ROUND_TO
 
 
-def rigid_pose(matrix, metres, center):
+def rigid_pose(matrix, meters, center):
     """Return the pose of a scan whose vertices are measured from a center and brought into the world by a matrix.
 
     Scale is taken off, from the place as well: scans that were scaled alike keep their places to each other.
@@ -48,15 +48,15 @@ def rigid_pose(matrix, metres, center):
     ----------
     matrix : (4, 4) float
         Vertices to world, both in the same unit; column-vector convention.
-    metres : float
+    meters : float
         Of a unit.
     center : (3,) float64
-        From `local_center`: metres, in the scanner's frame.
+        From `local_center`: meters, in the scanner's frame.
 
     Returns
     -------
     (4, 4) float64
-        Scanner's frame to world, metres: a rotation and a translation.
+        Scanner's frame to world, meters: a rotation and a translation.
     """
     matrix = np.asarray(matrix, np.float64)
     scale = np.cbrt(abs(np.linalg.det(matrix[:3, :3]))) or 1.0
@@ -65,5 +65,5 @@ def rigid_pose(matrix, metres, center):
     left[:, 2] *= np.sign(np.linalg.det(left @ right))
     pose = np.eye(4)
     pose[:3, :3] = left @ right
-    pose[:3, 3] = matrix[:3, 3] * metres / scale - pose[:3, :3] @ np.asarray(center, np.float64)
+    pose[:3, 3] = matrix[:3, 3] * meters / scale - pose[:3, :3] @ np.asarray(center, np.float64)
     return pose

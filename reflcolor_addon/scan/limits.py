@@ -1,7 +1,7 @@
 """What a scan can plausibly hold. A file that claims more is damaged, or made to break what reads it."""
 
 FARTHEST_M = 1e9
-"""Greatest coordinate, in metres: every way of counting places on a planet stays far below."""
+"""Greatest coordinate, in meters: every way of counting places on a planet stays far below."""
 
 NEAREST_M = 1e-6
 """Least distance of a return from the scanner."""

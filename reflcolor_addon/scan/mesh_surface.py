@@ -16,11 +16,11 @@ class MeshSurface:
     shape : (H, W)
         Of the scan's grid that it was made of.
     pose : (4, 4) float64
-        Scanner's frame to world, metres.
+        Scanner's frame to world, meters.
     center : (3,) float64
         What single-precision coordinates are best measured from, in the scanner's frame.
     points : (N, 3) float64
-        Metres, in the scanner's frame.
+        Meters, in the scanner's frame.
     rgb : (N, 3) uint8
         sRGB.
     values : dict of (N,) float32 or int32

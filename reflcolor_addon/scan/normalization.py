@@ -11,7 +11,7 @@ def normalize(values, valid):
     Parameters
     ----------
     values : (H, W) float
-        Raw reflectance, or range in metres.
+        Raw reflectance, or range in meters.
     valid : (H, W) bool
 
     Returns

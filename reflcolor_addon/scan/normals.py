@@ -15,7 +15,7 @@ def surface_normals(points, valid, *, wrap=False):
     Parameters
     ----------
     points : (H, W, 3) float
-        Metres, in the scanner's frame.
+        Meters, in the scanner's frame.
     valid : (H, W) bool
     wrap : bool
         Whether the left and the right edge are neighbors.

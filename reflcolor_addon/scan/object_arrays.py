@@ -22,14 +22,14 @@ class ObjectArrays:
     shape : (H, W)
     pixel_aspect : float
         Width of a pixel over its height.
-    units_per_metre : float
+    units_per_meter : float
         Of the coordinates.
     max_incidence_deg : float
         As in `grid_mesh`.
     center : (3,) float64
-        What the coordinates are measured from: metres, in the scanner's frame.
+        What the coordinates are measured from: meters, in the scanner's frame.
     pose : (4, 4) float64
-        Coordinates to world, but in metres.
+        Coordinates to world, but in meters.
     coordinates : (3 N,) float32
     corners : (4 F,) int32
         Vertices of the faces, one face after the other.
@@ -47,7 +47,7 @@ class ObjectArrays:
     source: Path | None
     shape: tuple[int, int]
     pixel_aspect: float
-    units_per_metre: float
+    units_per_meter: float
     max_incidence_deg: float
     center: np.ndarray
     pose: np.ndarray
@@ -61,14 +61,14 @@ class ObjectArrays:
     range_image: np.ndarray
 
 
-def object_arrays(scan, *, units_per_metre=1.0, max_incidence_deg=MAX_INCIDENCE_DEG):
+def object_arrays(scan, *, units_per_meter=1.0, max_incidence_deg=MAX_INCIDENCE_DEG):
     """Return the ObjectArrays of a scan.
 
     Parameters
     ----------
     scan : Scan
-    units_per_metre : float
-        Blender's units in a metre.
+    units_per_meter : float
+        Blender's units in a meter.
     max_incidence_deg : float
         As in `grid_mesh`.
     """
@@ -83,11 +83,11 @@ def object_arrays(scan, *, units_per_metre=1.0, max_incidence_deg=MAX_INCIDENCE_
         source=scan.source,
         shape=scan.shape,
         pixel_aspect=scan.pixel_aspect,
-        units_per_metre=units_per_metre,
+        units_per_meter=units_per_meter,
         max_incidence_deg=max_incidence_deg,
         center=center,
         pose=pose,
-        coordinates=((scan.points[valid] - center) * units_per_metre).astype(np.float32).ravel(),
+        coordinates=((scan.points[valid] - center) * units_per_meter).astype(np.float32).ravel(),
         corners=mesh.quads.ravel(),
         uv=mesh.uv.ravel(),
         values={

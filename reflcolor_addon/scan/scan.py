@@ -20,7 +20,7 @@ class Scan:
     name : str
         Name of the scan; the file's stem where the file gives none.
     points : (H, W, 3) float64
-        Metres, in the scanner's frame (Z up, the scanner at the origin); zeros where not valid.
+        Meters, in the scanner's frame (Z up, the scanner at the origin); zeros where not valid.
     reflectance : (H, W) float32
         Raw, in whatever unit the file has it.
     valid : (H, W) bool
@@ -118,11 +118,14 @@ class Scan:
             raise self._error("the pose holds a number that is not finite")
         if not (is_plausible(pose) and np.array_equal(pose[3], [0, 0, 0, 1])):
             raise self._error(
-                "the pose is none of a scanner: expected 0 0 0 1 as its last row, and at most {most:g} m",
+                "the pose is not that of a scanner: expected 0 0 0 1 as its last row, and at most {most:g} m",
                 most=FARTHEST_M,
             )
         # Where there is no return the points are 0 already.
-        for what, values, most in (("a point", points, FARTHEST_M), ("a reflectance", reflectance[valid], STRONGEST)):
+        for what, values, most in (
+            (Message("a point"), points, FARTHEST_M),
+            (Message("a reflectance"), reflectance[valid], STRONGEST),
+        ):
             seen = max(values.max(initial=0), -values.min(initial=0))
             if not np.isfinite(seen):
                 raise self._error("a valid pixel has {what} that is not finite", what=what)
@@ -132,7 +135,7 @@ class Scan:
                 )
 
     def _error(self, template, **values):
-        return ScanError("{scan}: " + template, scan=self.name, **values)
+        return ScanError("{scan}: {text}", scan=self.name, text=Message(template, **values))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -147,7 +150,7 @@ class Scan:
 
     @cached_property
     def range(self) -> np.ndarray:
-        """(H, W) float64, metres from the scanner; 0 where not valid."""
+        """(H, W) float64, meters from the scanner; 0 where not valid."""
         return np.sqrt(np.einsum("ijk,ijk->ij", self.points, self.points))
 
     @cached_property

@@ -18,7 +18,7 @@ class VertexBlock:
     Parameters
     ----------
     points : (N, 3) float64
-        Metres, in the scanner's frame.
+        Meters, in the scanner's frame.
     rgb : (N, 3) uint8
         sRGB.
     values : dict of (N,) float32 or int32

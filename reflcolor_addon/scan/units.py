@@ -4,13 +4,13 @@ import numpy as np
 
 MILLIMETRE = 0.001
 _CAMERA_REACH = 60.0
-"""No depth camera sees that far, in metres; what it measures in millimetres is always more."""
+"""No depth camera sees that far, in meters; what it measures in millimeters is always more."""
 
 _STEEP = -0.64
 """Sine of an angle below which a standing scanner sees the floor that it stands on."""
 
 _HIGHEST = 150.0
-"""Metres that a scanner stands above what is straight below it, at most."""
+"""Meters that a scanner stands above what is straight below it, at most."""
 
 _FEWEST = 50
 
@@ -32,8 +32,8 @@ def scale_of_pose(pose):
     return scale if np.abs(turn @ turn.T - np.eye(3)).max() <= 1e-3 and abs(scale - 1) > 1e-3 else 1.0
 
 
-def counts_millimetres(points, *, camera):
-    """Return whether points count millimetres: a camera sees farther than any can, or the floor is far below a scanner.
+def counts_millimeters(points, *, camera):
+    """Return whether points count millimeters: a camera sees farther than any can, or the floor is far below a scanner.
 
     Parameters
     ----------

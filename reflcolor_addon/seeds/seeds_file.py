@@ -13,6 +13,7 @@ from ..files.atomic import written_atomically
 from ..files.gate import beside
 from ..files.images import read_image
 from ..files.json_files import read_json
+from ..messages import Message
 from .sources import SOURCES
 
 FORMAT = "reflcolor-seeds"
@@ -170,7 +171,7 @@ class _SeedsFile:
 
     def document(self):
         """The whole document, of the right form."""
-        document = read_json(self._path, "a JSON file of seeds", error=SeedsError, most=_LARGEST_FILE)
+        document = read_json(self._path, Message("a JSON file of seeds"), error=SeedsError, most=_LARGEST_FILE)
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise SeedsError('{file}: expected a JSON object with "format": "{format}"', file=self._path, format=FORMAT)
         if document.get("version") != VERSION:
@@ -247,7 +248,7 @@ class _SeedsFile:
     def _number(self, where, entry, key, kind):
         value = entry.get(key)
         if isinstance(value, bool) or not isinstance(value, kind) or not abs(value) < 1e9:
-            expected = "a whole number" if kind is Integral else "a number"
+            expected = Message("a whole number" if kind is Integral else "a number")
             raise SeedsError(
                 "{where}: {key}: expected {expected}, found {value}",
                 where=where,

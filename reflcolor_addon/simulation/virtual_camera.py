@@ -57,7 +57,7 @@ class VirtualCamera:
         xy : (..., 2) float64
             Pixels from the top left corner (the first pixel's center is at 0.5, 0.5); NaN behind the camera.
         depth : (...) float64
-            Metres along the viewing axis.
+            Meters along the viewing axis.
         """
         camera = (np.asarray(points_world, np.float64) - self.pose[:3, 3]) @ self.pose[:3, :3]
         depth = camera[..., 2]
@@ -161,7 +161,7 @@ class Photo:
     image : (H, W, 3) uint8
         sRGB.
     depth : (H, W) float
-        Metres along the viewing axis; infinite where there is nothing.
+        Meters along the viewing axis; infinite where there is nothing.
     """
 
     camera: VirtualCamera

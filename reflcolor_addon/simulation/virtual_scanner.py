@@ -14,6 +14,7 @@ from numbers import Integral
 import numpy as np
 
 from ..errors import Cancelled, SettingsError
+from ..messages import Message
 from ..scan.directions import directions
 from ..scan.scan import Scan
 from ..srgb import linear_to_srgb8, srgb8_to_linear
@@ -111,16 +112,20 @@ class ScannerModel:
         bottom, top = self.elevation_deg
         near, far = self.range_limits_m
         rules = (
-            (self.rows >= 1 and self.columns >= 1, "rows and columns", "1 or more each"),
-            (self.rows * self.columns <= _MAX_PIXELS, "rows x columns", f"at most {_MAX_PIXELS} pixels"),
-            (left < right <= left + 360, "azimuth_deg", "left before right, at most 360 degrees apart"),
-            (-90 <= bottom < top <= 90, "elevation_deg", "bottom below top, within -90 to 90 degrees"),
-            (0 <= near < far, "range_limits_m", "least below greatest, neither negative"),
-            (self.reference_range_m > 0, "reference_range_m", "more than 0"),
-            (self.reflectance_gain > 0, "reflectance_gain", "more than 0"),
-            (1 <= self.reflectance_bits <= 16, "reflectance_bits", "1 to 16"),
-            (0 <= self.dropout_rate <= 1, "dropout_rate", "0 to 1"),
-            (0 <= self.seed < 2**32, "seed", f"0 to {2**32 - 1}"),
+            (self.rows >= 1 and self.columns >= 1, "rows and columns", Message("1 or more each")),
+            (
+                self.rows * self.columns <= _MAX_PIXELS,
+                "rows x columns",
+                Message("at most {most:,} pixels", most=_MAX_PIXELS),
+            ),
+            (left < right <= left + 360, "azimuth_deg", Message("left before right, at most 360 degrees apart")),
+            (-90 <= bottom < top <= 90, "elevation_deg", Message("bottom below top, within -90 to 90 degrees")),
+            (0 <= near < far, "range_limits_m", Message("least below greatest, neither negative")),
+            (self.reference_range_m > 0, "reference_range_m", Message("more than 0")),
+            (self.reflectance_gain > 0, "reflectance_gain", Message("more than 0")),
+            (1 <= self.reflectance_bits <= 16, "reflectance_bits", Message("1 to 16")),
+            (0 <= self.dropout_rate <= 1, "dropout_rate", Message("0 to 1")),
+            (0 <= self.seed < 2**32, "seed", Message("0 to {most}", most=2**32 - 1)),
         )
         for holds, name, expected in rules:
             if not holds:
@@ -174,7 +179,7 @@ class Hits:
     Parameters
     ----------
     range : (H, W) float
-        Metres; infinite where the ray meets nothing.
+        Meters; infinite where the ray meets nothing.
     cos_incidence : (H, W) float
         Cosine of the angle between the ray and the surface's normal; its sign does not matter.
     albedo : (H, W) float
@@ -259,11 +264,11 @@ def simulate_scan(cast, model, *, name="scan", pose=None, progress=None, cancell
         if cancelled is not None and cancelled():
             raise Cancelled
         if progress is not None:
-            progress(index / len(grids), f"Scanning {name}")
+            progress(index / len(grids), Message("Scanning {name}", name=name))
         hits.append(cast(*grid))
     result = measure(hits, model, name=name, pose=pose)
     if progress is not None:
-        progress(1.0, f"Scanned {name}")
+        progress(1.0, Message("Scanned {name}", name=name))
     return result
 
 
@@ -304,7 +309,7 @@ def _mean_color(colors, weights, valid):
 
 
 def _readings(distance, signal, model):
-    """(H, W) range in metres, reflectance in 0..1 and validity as the scanner reports them."""
+    """(H, W) range in meters, reflectance in 0..1 and validity as the scanner reports them."""
     # The legacy generator is the one whose stream numpy promises never to change.
     random = np.random.RandomState(model.seed)
     range_noise, speckle = random.standard_normal((2, *signal.shape))

@@ -21,7 +21,7 @@ _STRAY = 0.05
 _SAMPLE = 20_000
 # In distances of the target: what is nearer or farther is not shown.
 _CLIP = (1e-3, 1e3)
-# Metres; a scan of one point has no size to go by.
+# Meters; a scan of one point has no size to go by.
 _CLOSEST = 0.1
 # Width over height of a picture in the scan's own shape is no more extreme than this.
 _SHAPES = 0.5, 2.4
@@ -40,7 +40,7 @@ class View:
     Parameters
     ----------
     position, target : (3,) float64
-        World metres.
+        World meters.
     fov_deg : float
         Field of view of the picture's wider side.
     aspect : float
@@ -54,12 +54,12 @@ class View:
 
     @property
     def distance(self):
-        """Metres from the position to the target."""
+        """Meters from the position to the target."""
         return float(np.linalg.norm(self.target - self.position))
 
     @property
     def clip(self):
-        """(start, end) of what is shown, metres from the position."""
+        """(start, end) of what is shown, meters from the position."""
         return self.distance * _CLIP[0], self.distance * _CLIP[1]
 
 
@@ -85,7 +85,7 @@ def frame(points, scanners, *, aspect=None):
     Parameters
     ----------
     points : (N, 3) float64
-        Points with a return, world metres, Z up.
+        Points with a return, world meters, Z up.
     scanners : (3,) or (K, 3) float64
         Where the scanner stood: once, or for each of several scans.
     aspect : float, optional

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import Cancelled
+from ..messages import Message
 from ..scan.grid_mesh import MAX_INCIDENCE_DEG, is_jump
 from .mixed_pixels import mixed_pixels
 from .outlines import CORNERS, DOWN, RIGHT, STEPS, outline_shares, square_polygons
@@ -23,7 +24,7 @@ class ShownSurface:
     Parameters
     ----------
     points : (M, 3) float64
-        Metres, in the scanner's frame.
+        Meters, in the scanner's frame.
     source : (M,) int64
         The pixel whose color a vertex has: its index in reading order.
     corners : (C,) int32
@@ -79,14 +80,14 @@ def shown_surface(scan, *, drop_mixed=True, max_incidence_deg=MAX_INCIDENCE_DEG,
         if progress is not None:
             progress(fraction, text)
 
-    step(0.0, "Looking for mixed returns")
+    step(0.0, Message("Looking for mixed returns"))
     mixed = mixed_pixels(scan, max_incidence_deg) if drop_mixed else np.zeros(scan.shape, bool)
-    step(0.2, "Filling small holes")
+    step(0.2, Message("Filling small holes"))
     grid = _Grid(scan, scan.valid & ~mixed, max_incidence_deg)
-    step(0.5, "Smoothing outlines")
+    step(0.5, Message("Smoothing outlines"))
     polygons = _Polygons(grid)
     points, vertex, pixels = polygons.vertices()
-    step(1.0, "Filling small holes")
+    step(1.0, Message("Filling small holes"))
     return ShownSurface(
         points=points,
         source=grid.nearest.ravel()[pixels],

@@ -41,7 +41,7 @@ def check_manifest(manifest, blender, refuse):
 def _check_scan(path):
     if not path.name.lower().endswith(SCAN_SUFFIXES):
         known = ", ".join(SCAN_SUFFIXES)
-        raise UsageError("{file}: is no scan by its name; expected one of {known}", file=path, known=known)
+        raise UsageError("{file}: is not a scan, to judge by its name; expected one of {known}", file=path, known=known)
     with opened(path, "a scan"):
         pass
 

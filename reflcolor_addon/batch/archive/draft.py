@@ -56,7 +56,7 @@ def draft(folder, path):
         If it holds no scan, or is no folder.
     """
     if not folder.is_dir():
-        raise UsageError("{folder}: is no folder; name the one that holds the scans", folder=folder)
+        raise UsageError("{folder}: is not a folder; name the one that holds the scans", folder=folder)
     files = sorted(_files(folder), key=lambda file: file.as_posix())
     scans = [file for file in files if file.name.lower().endswith(SCAN_SUFFIXES)]
     if not scans:

@@ -83,7 +83,7 @@ def _refused_lines():
 
 
 def describe(index, scan):
-    """Return what ``info`` says about a scan, ready for JSON: angles in degrees, lengths in metres.
+    """Return what ``info`` says about a scan, ready for JSON: angles in degrees, lengths in meters.
 
     Parameters
     ----------

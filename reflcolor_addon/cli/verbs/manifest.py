@@ -23,9 +23,7 @@ def run(arguments, session):
     if path.suffix.lower() != ".toml":
         raise UsageError("-o {path}: expected a file that ends in .toml", path=path)
     if path.exists():
-        raise UsageError(
-            "-o {path}: is there already, and a person may have changed it; choose another name", path=path
-        )
+        raise UsageError("-o {path}: exists already, and may have been edited; choose another name", path=path)
     text = draft(arguments.input, path)
     with written_atomically(path) as temporary:
         temporary.write_text(text, encoding="utf-8")

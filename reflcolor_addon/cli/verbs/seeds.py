@@ -50,7 +50,7 @@ def run(arguments, session):
     if arguments.from_color is None and not arguments.photo:
         raise UsageError("--photo: give at least one photo to take colors from, or --from-color")
     for option in (option for option, given in of_photos.items() if given and arguments.from_color is not None):
-        raise UsageError("{option}: has no part in seeds from the scan's own colors (--from-color)", option=option)
+        raise UsageError("{option}: does not apply to seeds from the scan's own colors (--from-color)", option=option)
     outputs = []
     for option, path, suffix, kind in (
         ("-o", arguments.output, ".json", SEEDS),

@@ -64,8 +64,8 @@ def add_arguments(parser):
     for option, kind, value, text in (
         ("--rows", int, default.rows, "pixels from top to bottom"),
         ("--columns", int, default.columns, "pixels from left to right"),
-        ("--greatest-range", float, default.range_limits_m[1], "nothing is measured beyond, metres"),
-        ("--range-noise", float, default.range_noise_m, "standard deviation of the range of a bright surface, metres"),
+        ("--greatest-range", float, default.range_limits_m[1], "nothing is measured beyond, meters"),
+        ("--range-noise", float, default.range_noise_m, "standard deviation of the range of a bright surface, meters"),
         (
             "--reflectance-noise",
             float,
@@ -103,7 +103,7 @@ def run(arguments, session):
         )
     for option, value in (("--photo-samples", arguments.photo_samples), ("--plain-photos", arguments.plain_photos)):
         if value and not arguments.photos:
-            raise UsageError("{option} says how photos are taken; give --photos, too", option=option)
+            raise UsageError("{option} applies to photos; give --photos, too", option=option)
     if not arguments.input.is_file():
         raise ReflcolorError("{input}: no such file; expected a scene saved by Blender", input=arguments.input)
     request = SimulationRequest(

@@ -41,7 +41,7 @@ def run(arguments, session):
     wrong = sum(output.state != WHOLE for output in outputs)
     if wrong:
         raise ReflcolorError(
-            "{file}: {wrong} of {count} outputs are not as their run wrote them",
+            "{file}: {wrong} of {count} outputs are not as the run wrote them",
             file=", ".join(map(str, arguments.input)),
             wrong=wrong,
             count=len(outputs),

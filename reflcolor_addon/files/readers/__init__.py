@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import ScanError
+from ...messages import Message
 from ...progress import IsCancelled, Progress
 from ...scan.scan import Scan
 from ..gate import opened
@@ -21,7 +22,7 @@ FORMATS = tuple(module.FORMAT for module in (ptx, e57, image_pair, pcd, ply, num
 SCAN_SUFFIXES = tuple(suffix for kind in FORMATS for suffix in kind.suffixes)
 """What scan files end in; for file dialogs and drag and drop."""
 
-_EXPECTED = f"a scan file ({', '.join(SCAN_SUFFIXES)})"
+_EXPECTED = Message("a scan file ({suffixes})", suffixes=", ".join(SCAN_SUFFIXES))
 _START = 512
 
 
@@ -84,8 +85,10 @@ def _kind_of(path, start):
     name = path.name.lower()
     named = next((kind for kind in FORMATS if name.endswith(kind.suffixes)), None)
     found = next((kind for kind in FORMATS if kind.sniff is not None and kind.sniff(start)), None)
-    if named is None and (way := REFUSED.get(path.suffix.lower())):
-        raise ScanError("{file}: this format is not read. {way}", file=path.name, way=way)
+    suffix = path.suffix.lower()
+    if named is None and suffix in REFUSED:
+        way = Message(REFUSED[suffix])
+        raise ScanError("{file}: this format is not supported. {way}", file=path.name, way=way)
     if named is None:
         known = ", ".join(SCAN_SUFFIXES)
         if found is None:

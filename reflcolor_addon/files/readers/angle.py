@@ -44,7 +44,7 @@ def gridded_by_angle(header, points, valid, reflectance, color, named, options, 
         place = position_of_cloud(points[usable], named)
     if place is None:
         raise UnusableScan(
-            "{file}: scan '{scan}': it is not known where the scanner stood, and its points do not show it; say it by "
+            "{file}: scan '{scan}': the scanner's position is not known, and its points do not show it; give it with "
             "--position X Y Z, or Scanner Position in the import dialog",
             **header.place,
         )

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ScanError
-from ...messages import Message
+from ...messages import Message, of_scan
 from ..memory import require_memory
 from .angle import gridded_by_angle
 from .colors import scaled_colors
@@ -46,7 +46,11 @@ class Place:
 
 def check_size(path, count, columns=8):
     """Raise ScanError if so many points do not fit into memory."""
-    require_memory(count * (8 * columns + BYTES_PER_PIXEL), f"{path.name}: {count:,} points", error=ScanError)
+    require_memory(
+        count * (8 * columns + BYTES_PER_PIXEL),
+        Message("{file}: {count:,} points", file=path.name, count=count),
+        error=ScanError,
+    )
 
 
 def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None, named=(), warnings=()):
@@ -77,7 +81,7 @@ def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None,
     warnings = list(warnings)
 
     def warn(template, **values):
-        warnings.append(Message("scan '{scan}': " + template, scan=header.name, **values))
+        warnings.append(of_scan(header.name, template, **values))
 
     if not {"x", "y", "z"} <= columns.keys():
         raise UnusableScan("{file}: scan '{scan}' has no coordinates x, y and z", **header.place)
@@ -111,4 +115,4 @@ def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None,
         arrays["color"] = None if color is None else laid.spread(color)
         arrays["reflectance"] = None if strength is None else laid.spread(np.asarray(strength), np.float32)
         return finish_scan(**common, **arrays)
-    raise UnusableScan("{file}: scan '{scan}' " + NO_ROWS, **header.place)
+    raise UnusableScan("{file}: scan '{scan}' {problem}", problem=Message(NO_ROWS), **header.place)

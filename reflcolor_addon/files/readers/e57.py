@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from ...errors import Cancelled, ScanError
+from ...messages import Message
 from ..gate import size_of
 from ..memory import require_memory
 from .e57_columns import E57Columns
@@ -71,7 +72,9 @@ def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
                 if cancelled and cancelled():
                     raise Cancelled
                 if progress:
-                    progress((done + fraction) / len(usable), f"Reading {path.name}: {name}")
+                    progress(
+                        (done + fraction) / len(usable), Message("Reading {file}: {name}", file=path.name, name=name)
+                    )
 
             done += 1
             if header.grouped_by is not None and not header.has(INDEX):
@@ -93,7 +96,7 @@ def _header(node, path, file_size, name):
         return error
     require_memory(
         header.count * (8 * len(header.fields) + BYTES_PER_PIXEL),
-        f"{path.name}: scan '{name}': {header.count:,} points",
+        Message("{file}: scan '{scan}': {count:,} points", file=path.name, scan=name, count=header.count),
         error=ScanError,
     )
     return header

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import ScanError
+from ...messages import Message
 from ..confined.child import Child, ChildFailed
 from ..gate import size_of
 
@@ -168,7 +169,8 @@ class OneLine:
 
     def __exit__(self, _kind, error, _traceback):
         if isinstance(error, ChildFailed):
-            raise ScanError("{file}: " + _FAILURES[error.why], file=self._path.name, detail=error.detail) from error
+            problem = Message(_FAILURES[error.why], detail=error.detail)
+            raise ScanError("{file}: {problem}", file=self._path.name, problem=problem) from error
         return False
 
 

@@ -97,7 +97,7 @@ def scan_nodes(root, path):
     if data3d is None or not data3d.children:
         raise ScanError("{file}: holds no scan", file=path.name)
     if data3d.kind != "Vector" or any(node.kind != "Structure" for node in data3d.children):
-        raise ScanError("{file}: data3D is no list of scans; export it again", file=path.name)
+        raise ScanError("{file}: data3D is not a list of scans; export it again", file=path.name)
     return data3d.children
 
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ...errors import ScanError
+from ...messages import Message
 from ..memory import require_memory
 from .grid import BYTES_PER_PIXEL, UnusableScan
 
@@ -17,6 +18,12 @@ _MOST_MARGIN = 16
 _LARGEST_INDEX = 2**40
 _ONE_DIRECTION_DEG = 2.0
 """So far apart, at most, are the returns of one pulse, with the scanner a little away from where the file has it."""
+
+_TAKEN = {
+    "first": "{pixels:,} pixels have several returns; the first was taken, {count:,} others were left out",
+    "strongest": "{pixels:,} pixels have several returns; the strongest was taken, {count:,} others were left out",
+    "last": "{pixels:,} pixels have several returns; the last was taken, {count:,} others were left out",
+}
 
 
 class IndexGrid:
@@ -59,7 +66,9 @@ class IndexGrid:
             )
         require_memory(
             height * width * BYTES_PER_PIXEL,
-            f"{header.file_name}: scan '{header.name}': {height} rows x {width} columns",
+            Message(
+                "{file}: scan '{scan}': {rows} rows x {columns} columns", rows=height, columns=width, **self._place
+            ),
             error=ScanError,
         )
         self.shape = (height, width)
@@ -105,16 +114,15 @@ class IndexGrid:
         if returns is None and self._scattered(points, there[order], first):
             raise UnusableScan(
                 "{file}: scan '{scan}': rowIndex and columnIndex do not tell its points apart ({count:,} points, "
-                "{pixels:,} pixels); export it as PTX or as a structured (gridded) E57, or let a grid be laid over its "
+                "{pixels:,} pixels); export it as PTX or as a structured (gridded) E57, or have a grid laid over its "
                 "points: --grid angle, or Grid by Angle in the import dialog",
                 count=there.size,
                 pixels=self._pixels.size,
                 **self._place,
             )
         warn(
-            "{pixels:,} pixels have several returns; the {wanted} was taken, {count:,} others were left out",
+            _TAKEN[wanted],
             pixels=int(np.count_nonzero(np.diff(np.append(np.flatnonzero(first), len(first))) > 1)),
-            wanted=wanted,
             count=others,
         )
 
@@ -140,7 +148,7 @@ class IndexGrid:
             whole = (np.abs(index) < _LARGEST_INDEX) & (index == np.floor(index))
         if not whole.all():
             raise UnusableScan(
-                "{file}: scan '{scan}': {field} holds what is no whole number; export it as PTX",
+                "{file}: scan '{scan}': {field} holds values that are not whole numbers; export it as PTX",
                 field=field,
                 **self._place,
             )

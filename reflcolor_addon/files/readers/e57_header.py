@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...messages import Message
 from .grid import UnusableScan
 
 CARTESIAN = ("cartesianX", "cartesianY", "cartesianZ")
@@ -80,7 +81,8 @@ def scan_header(node, file_name, file_size, name):
     """
 
     def unusable(template, **values):
-        return UnusableScan("{file}: scan '{scan}' " + template, file=file_name, scan=name, **values)
+        problem = Message(template, **values)
+        return UnusableScan("{file}: scan '{scan}' {problem}", file=file_name, scan=name, problem=problem)
 
     points = node.child("points")
     if points is not None and points.kind != "CompressedVector":
@@ -91,9 +93,7 @@ def scan_header(node, file_name, file_size, name):
     present = {child.name: child for child in points.child("prototype").children}
     axes = [axis for kind in (CARTESIAN, SPHERICAL) if present.keys() >= set(kind) for axis in kind]
     if not axes:
-        raise unusable(
-            "has no coordinates that are known, expected cartesianX, Y, Z or sphericalRange, Azimuth, Elevation"
-        )
+        raise unusable("has no known coordinates, expected cartesianX, Y, Z or sphericalRange, Azimuth, Elevation")
     if count * sum(map(_bits, present.values())) > 8 * file_size or (
         present.keys() >= set(INDEX)
         and math.log2(count / _MOST_RETURNS) > sum(_bits(present[field]) for field in INDEX)

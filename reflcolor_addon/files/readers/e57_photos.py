@@ -26,7 +26,7 @@ _KINDS = {
     "pinholeRepresentation": PINHOLE,
     "sphericalRepresentation": SPHERICAL,
     "visualReferenceRepresentation": VISUAL,
-    "cylindricalRepresentation": "cylindrical",
+    "cylindricalRepresentation": Message("cylindrical"),
 }
 _USED = (PINHOLE, SPHERICAL, VISUAL)
 _BLOBS = ("jpegImage", "pngImage")
@@ -77,7 +77,7 @@ def photos_inside(path):
     path = Path(path)
     if path.suffix.lower() != ".e57":
         return []
-    with opened(path, "an E57 file", error=ScanError) as file:
+    with opened(path, Message("an E57 file"), error=ScanError) as file:
         return _listed(file, path)
 
 
@@ -105,7 +105,7 @@ def read_photos(path, warnings=None, *, cancelled=None):
     path, warnings = Path(path), [] if warnings is None else warnings
     found = []
     try:
-        with opened(path, "an E57 file", error=ScanError) as file:
+        with opened(path, Message("an E57 file"), error=ScanError) as file:
             listed = _listed(file, path, cancelled)
             for inside in listed:
                 if not inside.usable:
@@ -136,7 +136,7 @@ def _listed(file, path, cancelled=None):
         tag = next((tag for tag in _KINDS if node.child(tag) is not None), None)
         representation = None if tag is None else node.child(tag)
         blob = None if representation is None else _blob(representation)
-        kind = "unknown" if tag is None else _KINDS[tag]
+        kind = Message("unknown") if tag is None else _KINDS[tag]
         listed.append(
             PhotoInside(
                 name=_name(node, path, number, names),

@@ -4,7 +4,7 @@ from functools import reduce
 
 import numpy as np
 
-from ...messages import Message
+from ...messages import of_scan
 from .angle import gridded_by_angle
 from .colors import scaled_colors, stacked
 from .e57_grid import IndexGrid
@@ -39,7 +39,7 @@ def stored_grids(columns, header, options):
     pose, warnings = quaternion_pose(header.quaternion, header.translation, header.name)
 
     def warn(template, **values):
-        warnings.append(Message("scan '{scan}': " + template, scan=header.name, **values))
+        warnings.append(of_scan(header.name, template, **values))
 
     # Whatever is stored, also what is no number: `finish_grid` sorts it out.
     with np.errstate(all="ignore"):
@@ -116,7 +116,7 @@ def _reflectance(columns, header, valid, warn):
             return values, unknown
         found = values if found is None and seen.size else found
     if unknown.any():
-        warn("{count:,} of its points say that their intensity is not valid", count=np.count_nonzero(unknown))
+        warn("the intensity of {count:,} of its points is marked as invalid", count=np.count_nonzero(unknown))
     return found, np.zeros(len(valid), bool)
 
 
@@ -142,7 +142,7 @@ def _indices(columns, header, warn):
     if found is None:
         raise UnusableScan(
             "{file}: scan '{scan}' is unstructured (its points have no rowIndex and columnIndex); export it as PTX or "
-            "as a structured (gridded) E57, or let a grid be laid over its points: --grid angle, or Grid by Angle in "
+            "as a structured (gridded) E57, or have a grid laid over its points: --grid angle, or Grid by Angle in "
             "the import dialog",
             **header.place,
         )
@@ -151,7 +151,7 @@ def _indices(columns, header, warn):
 
 
 def _cartesian(spherical):
-    """(N, 3) x y z of range, azimuth (counterclockwise from +X) and elevation, metres and radians."""
+    """(N, 3) x y z of range, azimuth (counterclockwise from +X) and elevation, meters and radians."""
     distance, azimuth, elevation = spherical.T
     level = distance * np.cos(elevation)
     return np.stack([level * np.cos(azimuth), level * np.sin(azimuth), distance * np.sin(elevation)], axis=-1)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from ...errors import Cancelled, ScanError
+from ...messages import Message
 
 _LARGEST = 1 << 26
 _MOST_NODES, _DEEPEST = 400_000, 32
@@ -122,11 +123,11 @@ class _Parser:
         parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
         parser.CharacterDataHandler = self._characters
         for handler, what in (
-            ("StartDoctypeDeclHandler", "a document type"),
-            ("EntityDeclHandler", "an entity"),
-            ("ExternalEntityRefHandler", "an entity"),
-            ("SkippedEntityHandler", "an entity"),
-            ("ProcessingInstructionHandler", "a processing instruction"),
+            ("StartDoctypeDeclHandler", Message("a document type")),
+            ("EntityDeclHandler", Message("an entity")),
+            ("ExternalEntityRefHandler", Message("an entity")),
+            ("SkippedEntityHandler", Message("an entity")),
+            ("ProcessingInstructionHandler", Message("a processing instruction")),
         ):
             setattr(parser, handler, self._forbidden(what))
         try:
@@ -160,7 +161,7 @@ class _Parser:
         node = Node(_written(name), attributes.pop("type", None), attributes)
         self._check_references(name, attributes)
         if node.kind not in (*_CONTAINERS, *_LEAVES):
-            self._refuse("{node} has the type {kind}, expected one of E57's", node=node.name, kind=str(node.kind))
+            self._refuse("{node} has the type {kind}, which E57 does not define", node=node.name, kind=str(node.kind))
         self._check_attributes(node)
         if self._open:
             self._check_child(self._open[-1], node)
@@ -234,12 +235,12 @@ class _Parser:
         if prototype is None or prototype.kind != "Structure" or not prototype.children:
             self._refuse("{node} has no prototype, which tells what its records hold", node=node.name)
         if any(child.kind not in _SCALARS for child in prototype.children):
-            self._refuse("{node}: its prototype holds what is no number", node=node.name)
+            self._refuse("{node}: its prototype holds something other than numbers", node=node.name)
         if codecs is not None and codecs.kind != "Vector":
-            self._refuse("{node}: its codecs are no list", node=node.name)
+            self._refuse("{node}: its codecs are not a list", node=node.name)
 
     def _refuse(self, template, **values):
-        raise ScanError("{file}: " + template, file=self._file_name, **values)
+        raise ScanError("{file}: {problem}", file=self._file_name, problem=Message(template, **values))
 
 
 def _written(name):

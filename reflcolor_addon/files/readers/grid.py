@@ -6,7 +6,7 @@ from functools import reduce
 import numpy as np
 
 from ...errors import ScanError
-from ...messages import Message
+from ...messages import Message, of_scan
 from ...scan.limits import FARTHEST_M, NEAREST_M, STRONGEST
 from ...scan.scan import Scan
 from .options import AS_IT_IS
@@ -82,7 +82,7 @@ def finish_grid(
     warnings = list(warnings)
 
     def warn(template, **values):
-        warnings.append(Message("scan '{scan}': " + template, scan=name, **values))
+        warnings.append(of_scan(name, template, **values))
 
     # What is not a number stays none.
     largest = reduce(np.maximum, (np.abs(points[..., axis]) for axis in range(3)))
@@ -106,7 +106,9 @@ def finish_grid(
     try:
         settled = Settled(points, usable, pose, places or {}, origin, options, warn)
     except NoGrid:
-        raise UnusableScan("{file}: scan '{scan}' " + NO_GRID, file=source.name, scan=name) from None
+        raise UnusableScan(
+            "{file}: scan '{scan}' {problem}", file=source.name, scan=name, problem=Message(NO_GRID)
+        ) from None
     if not settled.valid.any():
         raise UnusableScan(
             "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
@@ -140,7 +142,7 @@ def with_problems(finished, problems, count, source):
         )
     left_out = [Message("left out: {reason}", reason=reason) for reason in reasons[:_MOST_TOLD]]
     if more := len(reasons) - len(left_out):
-        left_out.append(Message("left out: {count:,} more scans, for such reasons", count=more))
+        left_out.append(Message("left out: {count:,} more scans, for similar reasons", count=more))
     return [replace(finished[0], warnings=finished[0].warnings + tuple(left_out)), *finished[1:]]
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...errors import Cancelled, ImageError, ScanError
-from ...messages import Message
+from ...messages import Message, of_scan
 from ...scan.limits import FARTHEST_M, STRONGEST
 from ...scan.orientation import flipped, thinned
 from ...scan.scan import Scan
@@ -49,25 +49,29 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
         if cancelled and cancelled():
             raise Cancelled
         if progress:
-            progress(fraction, f"Reading {file_name}")
+            progress(fraction, Message("Reading {file}", file=file_name))
 
     tell(0.0, description.range)
     values, opaque = image_of("range", description.range, read_measured)
     if values.dtype.kind in "ui" and description.range_scale is None and description.range_table is None:
         raise ScanError(
-            "{file}: range_scale: missing; {image} holds whole numbers, say how many metres one is (0.001 for "
-            "millimetres)",
+            "{file}: range_scale: missing; {image} holds whole numbers: give the meters per unit (0.001 for "
+            "millimeters)",
             file=path.name,
             image=description.range,
         )
     shape = values.shape
-    require_memory(values.size * BYTES_PER_PIXEL, f"{path.name}: {shape[0]} x {shape[1]} pixels", error=ScanError)
+    require_memory(
+        values.size * BYTES_PER_PIXEL,
+        Message("{file}: {rows} x {columns} pixels", file=path.name, rows=shape[0], columns=shape[1]),
+        error=ScanError,
+    )
     valid = np.isfinite(values) & (values != 0 if opaque is None else opaque)
     name = description.name or path.name[: -len(".scan.json")] or path.name
     warnings = []
 
     def warn(template, **values):
-        warnings.append(Message("scan '{scan}': " + template, scan=name, **values))
+        warnings.append(of_scan(name, template, **values))
 
     if full := full_code(values, valid):
         valid &= values != full
@@ -77,7 +81,7 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
             code=full,
             count=np.count_nonzero(values == full),
         )
-    distance = np.where(valid, description.metres(values), 0.0)
+    distance = np.where(valid, description.meters(values), 0.0)
     valid &= (distance > 0) & (distance < _NOTHING_HIT_M)
 
     tell(0.4, description.reflectance)

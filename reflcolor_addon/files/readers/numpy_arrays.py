@@ -8,6 +8,7 @@ import zlib
 import numpy as np
 
 from ...errors import ScanError
+from ...messages import Message
 from ...scan.directions import directions
 from ...scan.limits import MOST_PIXELS
 from ..gate import opened, size_of
@@ -34,14 +35,14 @@ _ENCRYPTED = 1
 def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
     """Read arrays of a grid: one value per pixel, row 0 on top.
 
-    ``x``, ``y`` and ``z`` (H, W), or ``xyz`` (H, W, 3), in metres; or ``range`` (H, W) with ``azimuth`` (W,) or (H, W),
+    ``x``, ``y`` and ``z`` (H, W), or ``xyz`` (H, W, 3), in meters; or ``range`` (H, W) with ``azimuth`` (W,) or (H, W),
     to the right, and ``elevation`` (H,) or (H, W), up: in degrees under names that end in ``_deg``, else in radians.
-    Whole numbers of a range are millimetres. ``reflectance``, ``intensity``, ``reflectivity`` or ``signal`` (H, W);
+    Whole numbers of a range are millimeters. ``reflectance``, ``intensity``, ``reflectivity`` or ``signal`` (H, W);
     ``color`` (H, W, 3). An (H, W, 4) array is x, y, z and reflectance. Parameters and errors are those of `read_scans`.
     """
     arrays = _arrays(file, path)
     if progress:
-        progress(0.6, f"Reading {path.name}")
+        progress(0.6, Message("Reading {file}", file=path.name))
     points = _points(arrays, path)
     shape = points.shape[:2] if points.ndim == 3 else None
     mask = arrays.get("valid")
@@ -67,15 +68,15 @@ def array_of(path, member, cancelled=None):
     ScanError
         In one line.
     """
-    with opened(path, "NumPy arrays", error=ScanError) as file:
+    with opened(path, Message("NumPy arrays"), error=ScanError) as file:
         arrays = _arrays(file, path)
     found = arrays.get(member.lower()) if member else next(iter(arrays.values()), None) if len(arrays) == 1 else None
     if found is None or found.dtype.kind not in "fiu":
         raise ScanError(
             "{file}: has no array {member} of numbers, it holds {found}",
             file=path.name,
-            member=member or "of its own",
-            found=", ".join(sorted(arrays)) or "nothing",
+            member=member or Message("of its own"),
+            found=", ".join(sorted(arrays)) or Message("nothing"),
         )
     return found
 
@@ -105,9 +106,9 @@ def _of_angles(arrays, path):
     if distance is None or azimuth is None or elevation is None or distance.ndim != 2:
         raise ScanError(
             "{file}: expected x, y and z, or range with azimuth and elevation; it holds {found}. Where there are no "
-            "angles, a .scan.json beside it can tell them (docs/formats.md)",
+            "angles, a .scan.json beside it can give them (docs/formats.md)",
             file=path.name,
-            found=", ".join(sorted(arrays)) or "nothing",
+            found=", ".join(sorted(arrays)) or Message("nothing"),
         )
     height, width = distance.shape
     if azimuth.shape == (width,) and elevation.shape == (height,):
@@ -123,9 +124,9 @@ def _of_angles(arrays, path):
         if right.shape != distance.shape:
             raise ScanError("{file}: azimuth and elevation do not fit the range's size", file=path.name)
         rays = np.stack([np.cos(up) * np.sin(right), np.cos(up) * np.cos(right), np.sin(up)], axis=-1)
-    metres = distance.astype(np.float64) * (0.001 if distance.dtype.kind in "iu" else 1.0)
+    meters = distance.astype(np.float64) * (0.001 if distance.dtype.kind in "iu" else 1.0)
     with np.errstate(invalid="ignore"):
-        return rays * np.where(np.isfinite(metres) & (metres > 0), metres, 0.0)[..., None]
+        return rays * np.where(np.isfinite(meters) & (meters > 0), meters, 0.0)[..., None]
 
 
 def _angles(arrays, names):
@@ -154,7 +155,7 @@ def _arrays(file, path):
             if any(member.flag_bits & _ENCRYPTED for member in members):
                 raise ScanError("{file}: is encrypted; save it without a password", file=path.name)
             if any(member.compress_type not in _PACKED_BY for member in members):
-                raise ScanError("{file}: is packed in a way that NumPy does not use", file=path.name)
+                raise ScanError("{file}: uses a compression that NumPy does not write", file=path.name)
             found = {}
             for member in members:
                 with archive.open(member) as data:
@@ -168,7 +169,7 @@ def _arrays(file, path):
     except _DAMAGED as error:
         # What they say is about Python, and quotes the file at length.
         raise ScanError(
-            "{file}: it is damaged or cut short, or holds something else than arrays of numbers", file=path.name
+            "{file}: it is damaged or cut short, or holds something other than arrays of numbers", file=path.name
         ) from error
 
 
@@ -186,7 +187,7 @@ def _check(data, size, path):
     shape, _, dtype = read(data)
     count = int(np.prod(shape, dtype=object))
     if dtype.hasobject or count * dtype.itemsize > size or count > 4 * MOST_PIXELS:
-        raise ScanError("{file}: an array of it claims more than the file can hold", file=path.name)
+        raise ScanError("{file}: one of its arrays claims more data than the file can hold", file=path.name)
     check_size(path, count // 3, 3)
     return shape
 

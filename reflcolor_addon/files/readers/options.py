@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass, fields
 from ...errors import UsageError
 
 UNITS = {"m": 1.0, "mm": 0.001, "cm": 0.01, "ft": 0.3048, "in": 0.0254}
-"""Metres in each."""
+"""Meters in each."""
 
 AUTO = "auto"
 TURNS = (0, 90, 180, 270)
@@ -24,7 +24,7 @@ class ReadOptions:
     flip_vertical, flip_horizontal : bool
         Turn the order of its rows, of its columns, after that.
     unit : str
-        What the coordinates count: "m", "mm", "cm", "ft", "in"; "auto" is metres unless the points tell otherwise.
+        What the coordinates count: "m", "mm", "cm", "ft", "in"; "auto" is meters unless the points tell otherwise.
     step : int
         Keep every row and column whose number is a multiple of it.
     returns : {"first", "strongest", "last"}

@@ -136,7 +136,9 @@ def previewed(pair):
     ]
     size, doubts = _looked_at(content, values, there)
     if values.dtype == np.uint8 and pair.range_scale is None and pair.range_table is None:
-        guess = "8 bits do not tell their scale; {most:g} m is a guess for the brightest: give a scale, or a table"
+        guess = (
+            "8 bits do not give their scale; {most:g} m is a guess for the brightest value: give a scale, or a table"
+        )
         doubts = [Message(guess, most=_FULL_SCALE_M), *doubts]
     return PairPreview(content=content, said=tuple(said + size), doubts=tuple(doubts))
 
@@ -173,7 +175,7 @@ def _told_apart(pair):
         color = named[0] if len(named) == 1 else next((path for path in images if _has_colors(path)), None)
         if color is None:
             raise ScanError(
-                '{first}: of three images one has to be of colors; put "rgb" into its name', first=images[0]
+                '{first}: one of three images has to hold the colors; put "rgb" into its name', first=images[0]
             )
         images.remove(color)
     if len(images) != 2:
@@ -246,7 +248,7 @@ def _looked_at(content, values, there):
     }
     written["model"] = {k: list(v) if isinstance(v, tuple) else v for k, v in written["model"].items()}
     description = check_description(written, content["range_image"].name)
-    distance = np.where(there, description.metres(np.where(there, values, 0)), 0.0)
+    distance = np.where(there, description.meters(np.where(there, values, 0)), 0.0)
     there = there & (distance > 0)
     if not there.any():
         return [], [Message("no pixel has a range")]
@@ -279,12 +281,13 @@ def _doubts(model, distance, there, usual):
         return
     if usual < _SMALLEST_ROOM_M:
         yield Message(
-            "a full turn of points {usual:.2f} m away is a bowl, no scene; check the sensor and the range's scale",
+            "all around, its points are {usual:.2f} m away, as in a bowl; check the sensor and the range's scale",
             usual=usual,
         )
     if _seam(distance, there) > _SEAM:
         yield Message(
-            "its left and right edge do not meet, as those of a full turn do; it may be a camera's: choose Pinhole"
+            "its left and right edges do not meet, as they would in a full turn; it may be a camera's image: "
+            "choose Pinhole"
         )
 
 

@@ -5,6 +5,7 @@ import struct
 import numpy as np
 
 from ...errors import Cancelled, ScanError
+from ...messages import Message
 from ...scan.limits import MOST_PIXELS
 from ..gate import size_of
 from .cloud import check_size, scan_of_columns
@@ -156,7 +157,7 @@ def _lzf(packed, size, path, progress, cancelled):
                 if cancelled and cancelled():
                     raise Cancelled
                 if progress:
-                    progress(at / end, f"Reading {path.name}")
+                    progress(at / end, Message("Reading {file}", file=path.name))
     except IndexError:
         raise ScanError("{file}: its compressed points are damaged", file=path.name) from None
     _require(len(out) == size, path)

@@ -5,6 +5,7 @@ import re
 import numpy as np
 
 from ...errors import Cancelled, ScanError
+from ...messages import Message
 from ...scan.limits import MOST_PIXELS
 from ...scan.scan import is_plausible
 from ..gate import size_of
@@ -53,7 +54,7 @@ def read_ply(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
         else:
             reader.skip(element)
         if progress:
-            progress(0.5, f"Reading {path.name}")
+            progress(0.5, Message("Reading {file}", file=path.name))
         if cancelled and cancelled():
             raise Cancelled
     shape = header.stated_size()

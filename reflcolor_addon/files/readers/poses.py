@@ -4,15 +4,13 @@ import math
 
 import numpy as np
 
-from ...messages import Message
+from ...messages import Message, of_scan
 from ...scan.limits import FARTHEST_M
 from ...scan.scan import is_plausible
 from ...scan.units import scale_of_pose
 
 _TOLERANCE = 1e-3
 """How far from a rotation the digits that a file prints may be."""
-
-_SCAN = "scan '{scan}': "
 
 
 def is_rotation(matrix, tolerance=_TOLERANCE):
@@ -57,7 +55,7 @@ def ptx_pose(position, axes, matrix, scan):
     if not (np.abs(pose) < FARTHEST_M).all() or np.abs(pose[3] - [0, 0, 0, 1]).max() > _TOLERANCE:
         fault = Message("its matrix is corrupt (expected finite numbers and 0 0 0 1 as its last column)")
     elif not is_plausible(pose):
-        fault = Message("its matrix is singular, or scales by more than can be meant")
+        fault = Message("its matrix is singular, or its scale is not plausible")
     else:
         fault = None
     if fault:
@@ -66,27 +64,27 @@ def ptx_pose(position, axes, matrix, scan):
             if stated is None
             else Message("its position and axes are used")
         )
-        told = Message(_SCAN + "{fault}; {instead}", scan=scan, fault=fault, instead=instead)
-        return np.eye(4) if stated is None else stated, [told]
+        warning = of_scan(scan, "{fault}; {instead}", fault=fault, instead=instead)
+        return np.eye(4) if stated is None else stated, [warning]
     # The digits that are printed for 0 0 0 1 are no part of the motion.
     pose = np.vstack([pose[:3], [0.0, 0.0, 0.0, 1.0]])
     # One that scales evenly counts another unit, which is for `Settled` to say.
     if not is_rotation(pose[:3, :3] / scale_of_pose(pose)):
-        return pose, [Message(_SCAN + "its matrix scales, shears or mirrors; it is used as it is", scan=scan)]
+        return pose, [of_scan(scan, "its matrix scales, shears or mirrors; it is used as it is")]
     if stated is None:
-        return pose, [Message(_SCAN + "its scanner axes are no rotation; the matrix is used", scan=scan)]
+        return pose, [of_scan(scan, "its scanner axes are not a rotation; the matrix is used")]
     size = max(1.0, np.abs(pose[:3, 3]).max())
     if np.abs(stated[:3, 3] - pose[:3, 3]).max() > _TOLERANCE * size:
         return pose, [
-            Message(
-                _SCAN + "its scanner position {position} is not the matrix's {other}; the matrix is used",
-                scan=scan,
+            of_scan(
+                scan,
+                "its scanner position {position} is not the matrix's {other}; the matrix is used",
                 position=_numbers(position),
                 other=_numbers(matrix[3, :3]),
             )
         ]
     if np.abs(stated[:3, :3] - pose[:3, :3] / scale_of_pose(pose)).max() > 10 * _TOLERANCE:
-        return pose, [Message(_SCAN + "its scanner axes are not those of the matrix; the matrix is used", scan=scan)]
+        return pose, [of_scan(scan, "its scanner axes are not those of the matrix; the matrix is used")]
     return pose, []
 
 
@@ -110,24 +108,22 @@ def quaternion_pose(quaternion, translation, scan):
     length = math.hypot(*quaternion)
     if not math.isfinite(length) or length < 1e-9:
         warnings.append(
-            Message(
-                _SCAN + "its rotation {rotation} is corrupt; no rotation is used",
-                scan=scan,
+            of_scan(
+                scan,
+                "its rotation {rotation} is corrupt; no rotation is used",
                 rotation=_numbers(quaternion),
             )
         )
         quaternion, length = np.array([1.0, 0.0, 0.0, 0.0]), 1.0
     elif abs(length - 1) > _TOLERANCE:
         warnings.append(
-            Message(
-                _SCAN + "its rotation is a quaternion of length {length:.6g}, brought to 1", scan=scan, length=length
-            )
+            of_scan(scan, "its rotation is a quaternion of length {length:.6g}, brought to 1", length=length)
         )
     if not (np.abs(translation) < FARTHEST_M).all():
         warnings.append(
-            Message(
-                _SCAN + "its translation {translation} is corrupt; no translation is used",
-                scan=scan,
+            of_scan(
+                scan,
+                "its translation {translation} is corrupt; no translation is used",
                 translation=_numbers(translation),
             )
         )

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from ...errors import Cancelled, ScanError
-from ...messages import Message, one_line
+from ...messages import Message, of_scan, one_line
 from ...scan.coherence import line_length
 from ...scan.limits import MOST_PIXELS
 from ..memory import require_memory
@@ -82,7 +82,7 @@ def _by_angle(stored, cells, path, options):
     place = Place(file_name=path.name, name=stored["name"])
 
     def warn(template, **values):
-        stored["warnings"].append(Message("scan '{scan}': " + template, scan=place.name, **values))
+        stored["warnings"].append(of_scan(place.name, template, **values))
 
     def flat(grid):
         return None if grid is None else grid.reshape(-1, *grid.shape[2:])[np.maximum(cells, 0)]
@@ -106,7 +106,7 @@ def _stored_scans(file, path, options, progress, cancelled):
             continue
         if stored and not _COUNT.fullmatch(line):
             rest = Message(
-                "line {line}: what follows its last scan is none, and was left out: '{found}'",
+                "line {line}: what follows its last scan is not a scan and was left out: '{found}'",
                 line=lines.number,
                 found=_shortened(line),
             )
@@ -147,12 +147,12 @@ class _CutShort(Exception):
 
 def _read_scan(lines, first, *, after, options):
     try:
-        columns = _count(lines, first, "columns", after)
+        columns = _count(lines, first, Message("columns"), after)
         header = lines.number
-        rows = _count(lines, _header_line(lines, "the number of rows"), "rows", False)
-        position = _numbers(lines, 3, "the scanner's position")
-        axes = np.array([_numbers(lines, 3, "a scanner axis") for _ in range(3)])
-        matrix = np.array([_numbers(lines, 4, "a row of the matrix") for _ in range(4)])
+        rows = _count(lines, _header_line(lines, Message("the number of rows")), Message("rows"), False)
+        position = _numbers(lines, 3, Message("the scanner's position"))
+        axes = np.array([_numbers(lines, 3, Message("a scanner axis")) for _ in range(3)])
+        matrix = np.array([_numbers(lines, 4, Message("a row of the matrix")) for _ in range(4)])
     except ScanError as error:
         if lines.at_end():
             raise _CutShort(error) from None
@@ -172,7 +172,11 @@ def _read_scan(lines, first, *, after, options):
         )
         raise _CutShort(announced)
     count = min(count, room)
-    require_memory(count * BYTES_PER_PIXEL, f"{lines.path.name}: {columns} columns x {rows} rows", error=ScanError)
+    require_memory(
+        count * BYTES_PER_PIXEL,
+        Message("{file}: {columns} columns x {rows} rows", file=lines.path.name, columns=columns, rows=rows),
+        error=ScanError,
+    )
     body = _Body(lines, count)
     found = body.read()
     notes = body.notes()
@@ -187,7 +191,7 @@ def _read_scan(lines, first, *, after, options):
         # Of the only scan there is, what is whole is better than nothing.
         if after or found < 2 * rows:
             raise _CutShort(ended)
-        notes.append(Message("{reason}; what is whole of it was read", reason=ended.message))
+        notes.append(Message("{reason}; its complete columns were read", reason=ended.message))
     return {**_in_lines(body, found, columns, rows, notes), "placed": (position, axes, matrix), "warnings": notes}
 
 
@@ -200,7 +204,8 @@ def _in_lines(body, found, columns, rows, notes):
     if length != rows:
         notes.append(
             Message(
-                "its points follow each other in lines of {length}, not of {rows} as its header says; read so",
+                "its points follow each other in lines of {length}, not of {rows} as its header says; they were read "
+                "that way",
                 length=length,
                 rows=rows,
             )
@@ -263,7 +268,7 @@ class _Body:
         notes = []
         if self._color is not None and self._colorless:
             notes.append(
-                Message("{count:,} points have no color among others that have; they are black", count=self._colorless)
+                Message("{count:,} points have no color although others do; they are black", count=self._colorless)
             )
         return notes
 

@@ -55,10 +55,10 @@ def told_apart(reflectance, color, valid, warn):
                 )
             return luminance.astype(np.float32), color
     if reflectance is None:
-        warn("has no intensity, and nothing that could stand in for it: it can be looked at, but not colorized")
+        warn("has no intensity, and nothing that could stand in for it: it can be viewed, but not colorized")
         return np.zeros(valid.shape, np.float32), color
     warn(
-        "its intensity is {value:g} everywhere, as where a program knew none: it can be looked at, but not colorized",
+        "its intensity is {value:g} everywhere, as where a program knew none: it can be viewed, but not colorized",
         value=_value(reflectance, valid),
     )
     return reflectance, color

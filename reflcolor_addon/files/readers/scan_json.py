@@ -19,12 +19,12 @@ from .sensor_models import DEPTH, RAY, Beams, Pinhole, Spherical
 
 FORMAT = "reflcolor-scan"
 VERSION = 1
-EXPECTED = "a JSON description of a scan"
+EXPECTED = Message("a JSON description of a scan")
 LARGEST_FILE = 1 << 22
 _TEXTS = ("range", "reflectance", "color", "name", "range_type", "color_order")
 _KEYS = ("format", "version", *_TEXTS, "range_scale", "range_offset", "range_table", "model", "pose")
 _LONGEST_QUOTE = 60
-# What a sensor can plausibly be: metres of one unit, focal lengths and center in pixels, coefficients of a lens.
+# What a sensor can plausibly be: meters of one unit, focal lengths and center in pixels, coefficients of a lens.
 _SCALES = (1e-12, 1e6)
 _CAMERA = {"fx": (1e-3, 1e7), "fy": (1e-3, 1e7), "cx": (-1e7, 1e7), "cy": (-1e7, 1e7)}
 _BENT = 1e6
@@ -43,10 +43,10 @@ class Description:
     color : str, optional
     model : Pinhole, Spherical or Beams
     range_scale, range_offset : float
-        Metres = value * scale + offset. The scale may be missing where the image holds metres as floating point.
+        Meters = value * scale + offset. The scale may be missing where the image holds meters as floating point.
     range_table : (N, 2) float64, optional
         Instead of scale and offset, for images whose values are no linear measure (equalized, companded): values, and
-        the metres that they stand for, linear in between.
+        the meters that they stand for, linear in between.
     range_type : "depth" or "ray"
         Along the viewing axis, or along the ray of the pixel.
     color_order : "rgb" or "bgr"
@@ -74,7 +74,7 @@ class Description:
         named = filter(None, (self.range, self.reflectance, self.color))
         return list(dict.fromkeys(file_and_array(name)[0] for name in named))
 
-    def metres(self, values):
+    def meters(self, values):
         """(H, W) float64 of (H, W) pixel values."""
         if self.range_table is not None:
             return np.interp(values, *self.range_table.T)
@@ -165,7 +165,8 @@ def check_description(content, file_name):
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise ScanError('{file}: expected a JSON object with "format": "{format}"', file=file_name, format=FORMAT)
     if content.get("version") != VERSION or isinstance(content["version"], bool):
-        check.fail("version", f"{VERSION} (this file needs a newer release)", content.get("version"))
+        expected = Message("{version} (this file needs a newer release)", version=VERSION)
+        check.fail("version", expected, content.get("version"))
     check.keys(content, _KEYS, _REQUIRED)
     texts = {key: check.text(key, content[key]) for key in _TEXTS if key in content}
     model = check.model(content["model"])
@@ -176,7 +177,7 @@ def check_description(content, file_name):
     if "range_table" in content:
         if "range_scale" in content or "range_offset" in content:
             raise ScanError(
-                "{file}: range_table: stands instead of range_scale and range_offset; give one or the other",
+                "{file}: range_table: replaces range_scale and range_offset; give one or the other",
                 file=file_name,
             )
         numbers["range_table"] = check.table(content["range_table"])
@@ -219,7 +220,7 @@ class _Check:
 
     def text(self, key, value):
         if not isinstance(value, str) or not value.strip() or not value.isprintable():
-            self.fail(key, "a text in one line", value)
+            self.fail(key, Message("a text in one line"), value)
         return value
 
     def choice(self, key, value, choices):
@@ -237,15 +238,15 @@ class _Check:
 
     def span(self, key, value, low, high, widest):
         if not isinstance(value, list) or len(value) != 2:
-            self.fail(key, "two numbers in degrees", value)
+            self.fail(key, Message("two numbers in degrees"), value)
         first, last = (self.number(key, end, low, high) for end in value)
         if not 0 < abs(last - first) <= widest:
-            self.fail(key, f"two different numbers at most {widest} degrees apart", value)
+            self.fail(key, Message("two different numbers at most {widest} degrees apart", widest=widest), value)
         return first, last
 
     def model(self, value):
         if not isinstance(value, dict):
-            self.fail("model", "an object with a type", value)
+            self.fail("model", Message("an object with a type"), value)
         kind = self.choice("model.type", value.get("type"), ("pinhole", "spherical", "beams"))
         if kind == "beams":
             return self.beams(value)
@@ -260,7 +261,7 @@ class _Check:
         self.keys(value, ("type", *names, "distortion"), names, "model.")
         lens = value.get("distortion", [])
         if not isinstance(lens, list) or len(lens) not in (0, 4, 5, 8):
-            self.fail("model.distortion", "4, 5 or 8 numbers: k1, k2, p1, p2, k3, k4, k5, k6", lens)
+            self.fail("model.distortion", Message("4, 5 or 8 numbers: k1, k2, p1, p2, k3, k4, k5, k6"), lens)
         return Pinhole(
             **{key: self.number(f"model.{key}", value[key], *_CAMERA[key]) for key in names},
             distortion=tuple(self.number("model.distortion", number, -_BENT, _BENT) for number in lens),
@@ -272,7 +273,7 @@ class _Check:
         elevation = self.angles("model.elevation_deg", value["elevation_deg"], 90)
         offset = self.angles("model.azimuth_offset_deg", value.get("azimuth_offset_deg", []), 180)
         if not elevation or len(offset) not in (0, len(elevation)):
-            self.fail("model.azimuth_offset_deg", "as many numbers as elevation_deg has", len(offset))
+            self.fail("model.azimuth_offset_deg", Message("as many numbers as elevation_deg has"), len(offset))
         return Beams(
             azimuth_deg=self.span("model.azimuth_deg", value["azimuth_deg"], -720, 720, 360),
             elevation_deg=elevation,
@@ -282,16 +283,16 @@ class _Check:
     def angles(self, key, value, most):
         """A tuple of degrees, one for each row."""
         if not isinstance(value, list) or len(value) > _MOST_BEAMS:
-            self.fail(key, "a list of degrees, one for each row", value)
+            self.fail(key, Message("a list of degrees, one for each row"), value)
         return tuple(self.number(key, number, -most, most) for number in value)
 
     def table(self, value):
-        expected = "a list of at least two [value, metres] with growing values"
+        expected = Message("a list of at least two [value, meters] with growing values")
         if not isinstance(value, list) or len(value) < 2 or not all(isinstance(p, list) and len(p) == 2 for p in value):
             self.fail("range_table", expected, value)
         key = "range_table"
         table = np.array(
-            [(self.number(key, stored, -STRONGEST, STRONGEST), self.number(key, metres)) for stored, metres in value]
+            [(self.number(key, stored, -STRONGEST, STRONGEST), self.number(key, meters)) for stored, meters in value]
         )
         if (np.diff(table[:, 0]) <= 0).any():
             self.fail("range_table", expected, value)
@@ -299,7 +300,7 @@ class _Check:
 
     def pose(self, value):
         if not isinstance(value, list) or [len(row) if isinstance(row, list) else 0 for row in value] != [4] * 4:
-            self.fail("pose", "4 rows of 4 numbers", value)
+            self.fail("pose", Message("4 rows of 4 numbers"), value)
         pose = np.array([[self.number("pose", number) for number in row] for row in value])
         if (pose[3] != [0, 0, 0, 1]).any() or not is_plausible(pose):
             self.fail(

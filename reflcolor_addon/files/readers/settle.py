@@ -12,7 +12,7 @@ from ...scan.coherence import is_unordered
 from ...scan.grid_health import coarser, compacted
 from ...scan.orientation import AS_STORED, Z_UP, frame_with_up, infer_turn, up_of_camera
 from ...scan.origin import better_origin, repeated_point
-from ...scan.units import MILLIMETRE, counts_millimetres, scale_of_pose
+from ...scan.units import MILLIMETRE, counts_millimeters, scale_of_pose
 from .grid_order import GridOrder
 from .options import AUTO, UNITS
 
@@ -28,12 +28,15 @@ _FEWEST = 1 << 10
 _NEARLY_UP = 0.7
 
 
-_WAY_OUT = (
-    "Export it with rows and columns (structured E57, PTX), or let a grid be laid over its points: --grid angle, or "
-    "Grid by Angle in the import dialog"
+NO_GRID = (
+    "has no grid: points that are neighbors by their numbers are not neighbors in space. Export it with rows and "
+    "columns (structured E57, PTX), or have a grid laid over its points: --grid angle, or Grid by Angle in the "
+    "import dialog"
 )
-NO_GRID = f"has no grid: points that are neighbors by their numbers are none in space. {_WAY_OUT}"
-NO_ROWS = f"has no grid: its points have neither rows nor columns. {_WAY_OUT}"
+NO_ROWS = (
+    "has no grid: its points have neither rows nor columns. Export it with rows and columns (structured E57, PTX), or "
+    "have a grid laid over its points: --grid angle, or Grid by Angle in the import dialog"
+)
 
 
 class NoGrid(Exception):
@@ -41,7 +44,7 @@ class NoGrid(Exception):
 
 
 class Settled:
-    """A scan's points in the scanner's frame, Z up, in metres, on a whole and upright grid.
+    """A scan's points in the scanner's frame, Z up, in meters, on a whole and upright grid.
 
     Parameters
     ----------
@@ -101,7 +104,7 @@ class Settled:
         )
 
     def _scale(self):
-        """Bring the points, and with them the pose, to metres."""
+        """Bring the points, and with them the pose, to meters."""
         scale, before = scale_of_pose(self.pose), self.points
         self.points, self.pose = scaled_by_pose(self.points, self.pose, self.valid, self._warn)
         if self.points is not before:
@@ -110,20 +113,20 @@ class Settled:
         if self._options.unit != AUTO:
             self._count(UNITS[self._options.unit])
 
-    def _count(self, metres):
-        if metres != 1.0:
-            self.points *= metres
+    def _count(self, meters):
+        if meters != 1.0:
+            self.points *= meters
             self.pose = self.pose.copy()
-            self.pose[:3, 3] *= metres
-            self._places = {name: place * metres for name, place in self._places.items()}
-            self._origin = None if self._origin is None else self._origin * metres
+            self.pose[:3, 3] *= meters
+            self._places = {name: place * meters for name, place in self._places.items()}
+            self._origin = None if self._origin is None else self._origin * meters
 
     def _make_whole(self):
         """Close up numbers that skip, make a thinned grid coarser, and see that it is a grid at all."""
         if cells := compacted(self.valid):
             self._regrid(cells)
             self._warn(
-                "its numbers count every {rows} rows and {columns} columns; they were closed up",
+                "its row numbers go up by {rows} and its column numbers by {columns}; the gaps were closed",
                 rows=cells.stride[0],
                 columns=cells.stride[1],
             )
@@ -159,9 +162,9 @@ class Settled:
             self._camera = up_of_camera(self.points, self.valid)
             if self._camera is None:
                 self._find_place()
-        if self._options.unit == AUTO and counts_millimetres(self._sample(), camera=self._camera is not None):
+        if self._options.unit == AUTO and counts_millimeters(self._sample(), camera=self._camera is not None):
             self._count(MILLIMETRE)
-            self._warn("its coordinates count millimetres; they were brought to metres")
+            self._warn("its coordinates count millimeters; they were brought to meters")
 
     def _find_place(self):
         found = better_origin(self.points, self.valid, self._places)
@@ -176,7 +179,7 @@ class Settled:
             return
         self._move(origin.place)
         self._warn(
-            "its points are not measured from the scanner; they are from now on, from {place}, {source}",
+            "its points were not measured from the scanner; they are now, from {place}, {source}",
             place=numbers(origin.place),
             source=_SOURCES[kind],
         )
@@ -205,7 +208,7 @@ class Settled:
         if not turn.certain:
             self._warn("its points do not show which way is up; turn or flip it if it looks wrong")
         elif turn.transposed and (up is Z_UP or up is self._camera):
-            self._warn("its rows and columns are swapped in the file; they were brought in order")
+            self._warn("its rows and columns are swapped in the file; they were swapped back")
         if turn[:3] != AS_STORED[:3]:
             self.order.turned(turn)
             self.points, self.valid = turn.of(self.points), turn.of(self.valid)
@@ -220,7 +223,9 @@ class Settled:
         if up[2] > _NEARLY_UP:
             return Z_UP
         if self._camera is None:
-            self._warn("its pose says that the scanner hung upside down or lay on its side; row 0 is what was up there")
+            self._warn(
+                "its pose says that the scanner hung upside down or lay on its side; row 0 is what was up in the world"
+            )
         return up
 
     def _by_hand(self):
@@ -243,7 +248,7 @@ class Settled:
         return found
 
     def _nearest(self):
-        """Least distance from the scanner, metres."""
+        """Least distance from the scanner, meters."""
         chosen = self._sample()
         return np.sqrt(np.einsum("ij,ij->i", chosen, chosen).min())
 

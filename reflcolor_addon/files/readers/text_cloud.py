@@ -33,7 +33,7 @@ def read_text_cloud(file, path, *, options=AS_IT_IS, outside=False, progress=Non
         try:
             found = np.loadtxt(chunk, np.float64, comments=None, ndmin=2)
         except ValueError:
-            raise lines.error("expected points as lines of 3, 4, 6 or 7 numbers, each as the line before") from None
+            raise lines.error("expected points as lines of 3, 4, 6 or 7 numbers, all lines alike") from None
         if width is None:
             width = found.shape[1]
         if width not in _WIDTHS or found.shape[1] != width:

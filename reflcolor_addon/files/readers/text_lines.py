@@ -1,6 +1,7 @@
 """Lines of a large text file, in blocks, with their numbers."""
 
 from ...errors import Cancelled, ScanError
+from ...messages import Message
 from ...native import library
 from ...native.numbers import read_numbers
 from ..gate import size_of
@@ -101,7 +102,7 @@ class TextLines:
     def error(self, template, *, number=None, **values):
         """A ScanError that names the file and a line, the last one handed out unless another is given."""
         place = {"file": self.path.name, "line": self.number if number is None else number}
-        return ScanError("{file}: line {line}: " + template, **place, **values)
+        return ScanError("{file}: line {line}: {problem}", **place, problem=Message(template, **values))
 
     def _end_of_line(self, start):
         end = self._data.find(b"\n", start)
@@ -142,4 +143,4 @@ class TextLines:
             data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
         self._data, self._at = data, 0
         if self._progress and self.size:
-            self._progress(min(1.0, self._file.tell() / self.size), f"Reading {self.path.name}")
+            self._progress(min(1.0, self._file.tell() / self.size), Message("Reading {file}", file=self.path.name))

@@ -13,7 +13,7 @@ _CHUNK = 1 << 20
 def check_png(file, size):
     """A PNG whose chunks have their checksums and end with the last one, and whose pixels unpack to all its rows."""
     if exactly(file, 8) != _PNG:
-        raise Fault("it is no PNG")
+        raise Fault("it is not a PNG")
     pixels, unpacked, expected, at, kind = zlib.decompressobj(), 0, None, 8, None
     while kind != b"IEND":
         length, kind = struct.unpack(">I4s", exactly(file, 8))
@@ -46,4 +46,4 @@ def check_jpeg(file, size):
     start = file.read(2)
     file.seek(max(0, size - 2))
     if start != b"\xff\xd8" or file.read(2) != b"\xff\xd9":
-        raise Fault("it is no whole JPEG")
+        raise Fault("it is not a complete JPEG")

@@ -39,7 +39,7 @@ def _header(file):
             raise Fault("its header is cut short")
         lines.append(line.decode("ascii", "replace").strip())
     if lines[0] != "ply":
-        raise Fault("it is no PLY")
+        raise Fault("it is not a PLY")
     order, elements = None, []
     for word, *words in (line.split() for line in lines[1:] if line):
         if word == "format":

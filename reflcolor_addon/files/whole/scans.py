@@ -38,7 +38,7 @@ def check_e57(file, size):
     """An E57 as long as its header says, with every page's checksum right."""
     signature, _, _, length, xml_at, xml_length, page = HEADER.unpack(exactly(file, HEADER.size))
     if signature != b"ASTM-E57" or page != PAGE:
-        raise Fault("it is no E57")
+        raise Fault("it is not an E57")
     require_end(length, size)
     if length % PAGE or not HEADER.size <= xml_at < length or not xml_length:
         raise Fault("it has no description of what is in it")

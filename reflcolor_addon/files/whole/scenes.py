@@ -16,7 +16,7 @@ def check_glb(file, size):
     """A GLB as long as its header says, with chunks that fill it and a description whose data is there."""
     magic, version, length = struct.unpack("<4sII", exactly(file, 12))
     if magic != b"glTF" or version != 2:
-        raise Fault("it is no binary glTF")
+        raise Fault("it is not binary glTF")
     require_end(length, size)
     at, chunks = 12, {}
     while at < length:
@@ -38,7 +38,7 @@ def check_usd(file, size):
     """A binary USD whose table of contents, its last part, and all sections are there."""
     magic, _version, table = struct.unpack("<8s8sQ", exactly(file, 24))
     if magic != b"PXR-USDC":
-        raise Fault("it is no binary USD")
+        raise Fault("it is not binary USD")
     file.seek(table)
     (count,) = struct.unpack("<Q", exactly(file, 8))
     for _name, start, length in struct.iter_unpack("<16sQQ", exactly(file, count * 32)):
@@ -55,7 +55,7 @@ def check_blend(file, size):
     elif start.startswith(b"BLENDER"):
         _check_blocks(file, size, start)
     else:
-        raise Fault("it is no .blend")
+        raise Fault("it is not a .blend file")
 
 
 def _check_frames(file, size):

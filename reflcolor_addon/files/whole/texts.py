@@ -10,7 +10,7 @@ def check_json(file, size):
     try:
         json.loads(file.read().decode("utf-8-sig"), parse_constant=_refuse)
     except ValueError:
-        raise Fault("it is no whole JSON text") from None
+        raise Fault("it is not complete JSON text") from None
 
 
 def _refuse(name):

@@ -45,7 +45,7 @@ def write_e57(scans: Scan | Iterable[Scan], path: PathLike | str) -> None:
         from pye57 import libe57
     except ModuleNotFoundError:
         raise OutputError(
-            "{path}: cannot be written: E57 needs pye57, which is not there; write it as PTX", path=path
+            "{path}: cannot be written: E57 needs pye57, which is missing; write it as PTX", path=path
         ) from None
     with written_atomically(path) as temporary:
         try:

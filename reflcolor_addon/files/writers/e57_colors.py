@@ -56,7 +56,7 @@ def write_e57_colors(source, colors, path, *, options=AS_IT_IS, progress=None, c
     """
     source, path = Path(source), Path(path)
     warnings = []
-    with opened(source, "an E57 file", error=ScanError) as file:
+    with opened(source, Message("an E57 file"), error=ScanError) as file:
         columns, places = _point_colors(file, source, colors, path, options, warnings, _share(progress, 0.0), cancelled)
         file.seek(0)
         with written_atomically(path) as temporary:
@@ -77,7 +77,7 @@ def _point_colors(file, source, colors, path, options, warnings, progress, cance
         if lost := np.count_nonzero(~known):
             warnings.append(
                 Message(
-                    "{file}: scan '{scan}': {count:,} of {all:,} points have no color: they are no part of its grid",
+                    "{file}: scan '{scan}': {count:,} of {all:,} points have no color: they are not part of its grid",
                     file=path.name,
                     scan=scan.name,
                     count=lost,
@@ -85,7 +85,7 @@ def _point_colors(file, source, colors, path, options, warnings, progress, cance
                 )
             )
     if not places:
-        raise OutputError("{file}: {source} holds none of the scans any more", file=path, source=source.name)
+        raise OutputError("{file}: {source} no longer holds any of the scans", file=path, source=source.name)
     return parts, places
 
 
@@ -141,19 +141,19 @@ def _follow(child, source, path, warnings, progress):
         if "done" in answer:
             return
         if isinstance(answer.get("error"), str):
-            reason = reason_of(answer["error"], unknown="see whether the disk is full")
+            reason = reason_of(answer["error"], unknown=Message("see whether the disk is full"))
             raise OutputError("{file}: cannot be written: {reason}", file=path, reason=reason)
         if isinstance(answer.get("lost"), str):
             warnings.append(
                 Message(
-                    "{file}: the field {field} of {source} holds texts, and could not be kept",
+                    "{file}: the field {field} of {source} holds text and could not be kept",
                     file=path.name,
                     field=answer["lost"],
                     source=source.name,
                 )
             )
         elif isinstance(answer.get("at"), int) and progress:
-            progress(answer["at"] / 1000, f"Writing {path.name}")
+            progress(answer["at"] / 1000, Message("Writing {name}", name=path.name))
         elif not ({"ready", "at"} & answer.keys()):
             raise ChildFailed("garbage")
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import Cancelled, OutputError
+from ...messages import Message
 from ...progress import IsCancelled, Progress
 from ...scan.georeference import origin_shift
 from ...scan.mesh_surface import MeshSurface
@@ -44,8 +45,8 @@ def check_glb_size(surfaces, path, *, textures=None):
         size = _glb_bytes(surfaces, textures, lambda surface: surface.triangle_count)
     if size > _LARGEST:
         raise OutputError(
-            "{path}: would have {size:.1f} GiB, and a GLB ends at 4 GiB; make the mesh lighter with --faces, or write "
-            ".ply or .blend",
+            "{path}: would have {size:.1f} GiB, and a GLB holds at most 4 GiB; make the mesh lighter with --faces, or "
+            "write .ply or .blend",
             path=path,
             size=size / 2**30,
         )
@@ -70,9 +71,9 @@ def write_glb(
     progress: Progress | None = None,
     cancelled: IsCancelled | None = None,
 ) -> None:
-    """Write colored scans into a GLB: a node for each, in metres, Y up.
+    """Write colored scans into a GLB: a node for each, in meters, Y up.
 
-    A node stands where the scanner stood, whole kilometres taken off as in Blender's scene; the extra
+    A node stands where the scanner stood, whole kilometers taken off as in Blender's scene; the extra
     ``reflcolor_shift`` of the scene says how much. ``COLOR_0`` is linear light, as glTF has it, in 16 bits, from which
     every 8-bit sRGB color comes back exactly; values are attributes ``_NAME``. Returns that are in no face are points.
 
@@ -112,7 +113,7 @@ def write_glb(
     if cancelled and cancelled():
         raise Cancelled
     with written_atomically(path) as temporary, temporary.open("wb") as file:
-        document.write(file, _Teller(progress, cancelled, f"Writing {path.name}", document.size))
+        document.write(file, _Teller(progress, cancelled, Message("Writing {name}", name=path.name), document.size))
 
 
 class _Teller:

@@ -37,7 +37,7 @@ def write_image_pair(
     path : path-like
         Ends in ``.scan.json``.
     range_scale : float
-        Metres per step of the range image; made coarser where 16 bits would not hold the greatest range.
+        Meters per step of the range image; made coarser where 16 bits would not hold the greatest range.
     azimuth_deg, elevation_deg : (low, high) of float, optional
         Outer edges of the image in degrees; found from the points where not given.
 

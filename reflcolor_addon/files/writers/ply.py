@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import Cancelled, OutputError
+from ...messages import Message
 from ...progress import IsCancelled, Progress
 from ...scan.mesh_surface import MeshSurface
 from ...scan.surface import ScanSurface
@@ -26,7 +27,7 @@ def write_ply(
 ) -> None:
     """Write colored scans into a PLY.
 
-    Vertices are in world coordinates (metres, Z up, double precision), scan after scan, each row by row from the top,
+    Vertices are in world coordinates (meters, Z up, double precision), scan after scan, each row by row from the top,
     with ``red``, ``green``, ``blue``, and every value of the surface under its own name. Several scans are told apart
     by ``scan``, counted from 0. Comments name each scan, its grid and its pose.
 
@@ -75,7 +76,7 @@ def write_ply(
         file.write(table)
         done += len(table)
         if progress:
-            progress(done / whole, f"Writing {path.name}")
+            progress(done / whole, Message("Writing {name}", name=path.name))
 
     with written_atomically(path) as temporary, temporary.open("wb") as file:
         file.write(_header(surfaces, types, vertices, faces))
@@ -94,7 +95,7 @@ def _header(surfaces, types, vertices, faces):
         "ply",
         "format binary_little_endian 1.0",
         f"comment Reflectance Colorizer {__version__}",
-        "comment World coordinates in metres, Z up; colors are sRGB; no vertex is there twice",
+        "comment World coordinates in meters, Z up; colors are sRGB; no vertex is there twice",
     ]
     for index, surface in enumerate(surfaces):
         rows, columns = surface.shape

@@ -42,9 +42,7 @@ def colors_of_points(scans, colors, path, source):
         if rgb is None:
             continue
         if rgb.shape[:2] != scan.shape:
-            raise OutputError(
-                "{file}: {source} is not the file any more that its scans were read from", file=path, source=source.name
-            )
+            raise OutputError("{file}: {source} has changed since its scans were read", file=path, source=source.name)
         places = cells()
         there = places >= 0
         pixels = np.full(len(places), -1, np.int64)

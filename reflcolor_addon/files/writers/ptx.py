@@ -20,7 +20,7 @@ def write_ptx(scans: Scan | Iterable[Scan], path: PathLike | str, *, decimals: i
         Reflectance keeps six decimals, as it is.
     path : path-like
     decimals : int
-        Of the points: 6 for micrometres, 9 for nanometres.
+        Of the points: 6 for micrometers, 9 for nanometers.
 
     Raises
     ------

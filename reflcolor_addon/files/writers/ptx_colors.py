@@ -28,11 +28,15 @@ def write_ptx_colors(source, colors, path, *, options=AS_IT_IS, progress=None, c
         What was left out: lines behind the last whole scan or column of a file that is cut short.
     """
     source, path = Path(source), Path(path)
-    with opened(source, "a PTX file", error=ScanError) as file:
+    with opened(source, Message("a PTX file"), error=ScanError) as file:
         half = None if progress is None else (lambda fraction, text: progress(fraction / 2, text))
         words = _words_of_lines(file, source, colors, path, options, half, cancelled)
         file.seek(0)
-        half = None if progress is None else (lambda fraction, _: progress(0.5 + fraction / 2, f"Writing {path.name}"))
+        half = (
+            None
+            if progress is None
+            else (lambda fraction, _: progress(0.5 + fraction / 2, Message("Writing {name}", name=path.name)))
+        )
         lines = TextLines(file, source, progress=half, cancelled=cancelled)
         with (
             written_atomically(path) as temporary,
@@ -45,7 +49,7 @@ def write_ptx_colors(source, colors, path, *, options=AS_IT_IS, progress=None, c
         return []
     return [
         Message(
-            "{file}: {count} lines at the end of {source} are no whole scan or column; they were left out",
+            "{file}: {count} lines at the end of {source} are not a complete scan or column; they were left out",
             file=path.name,
             count=cut,
             source=source.name,

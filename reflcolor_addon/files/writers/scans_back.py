@@ -84,15 +84,15 @@ def write_scans_back(colored, path, *, progress=None, cancelled=None):
         return _COPIES[suffix](source, colors, path, options=ways.pop(), progress=progress, cancelled=cancelled)
     scans = [replace(scan.scan, color=scan.rgb) for scan in colored]
     if progress:
-        progress(0.5, f"Writing {path.name}")
+        progress(0.5, Message("Writing {name}", name=path.name))
     if suffix == ".ptx":
         write_ptx(scans, path, decimals=_DECIMALS)
     else:
         write_e57(scans, path)
     return [
         Message(
-            "{file}: made anew, not a copy of one {format} file: grid, points, reflectance, pose and name were kept, "
-            "nothing else",
+            "{file}: written anew, not copied from one {format} file: grid, points, reflectance, pose and name were "
+            "kept, nothing else",
             file=path.name,
             format=suffix.removeprefix(".").upper(),
         )
