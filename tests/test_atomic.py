@@ -133,13 +133,13 @@ def test_a_file_with_several_names_keeps_its_contents_where_the_disk_is_full(tmp
 def test_devices_and_write_protected_files_are_refused(tmp_path, monkeypatch):
     os.mkfifo(tmp_path / "pipe.txt")
     for act in (write, require_writable):
-        assert "is no ordinary file" in refusal(act, tmp_path / "pipe.txt")
+        assert "is not an ordinary file" in refusal(act, tmp_path / "pipe.txt")
         assert "is a directory" in refusal(act, tmp_path)
         assert "null" in refusal(act, Path("a\0.txt"))
     (tmp_path / "a.txt").write_text("old")
     monkeypatch.setattr(os, "access", lambda *_: False)
     for act in (write, require_writable):
-        assert "is there and write-protected" in refusal(act, tmp_path / "a.txt")
+        assert "exists and is write-protected" in refusal(act, tmp_path / "a.txt")
     assert (tmp_path / "a.txt").read_text() == "old"
 
 

@@ -266,7 +266,7 @@ def test_a_guessed_sensor_is_enough_for_two_images(blender, tmp_path, capfd):
     around = {"azimuth_left": -math.pi, "azimuth_right": math.pi, "range_scale": 1e-4}
     capfd.readouterr()
     blender.ops.reflcolor.import_scan(filepath=str(tmp_path / "ir.png"), **files, sensor="spherical", **around)
-    assert "is a bowl, no scene" in capfd.readouterr().out
+    assert "as in a bowl" in capfd.readouterr().out
 
 
 def test_photos_inside_an_e57_are_put_on_the_list_with_their_place(blender, tmp_path):

@@ -95,7 +95,7 @@ def test_numbers_that_skip_are_closed_up(case, tmp_path):
     (made,) = e57(tmp_path, fields(rows=row * 2 + 1, cols=col * 5 - 7))
     for scan, shape, strides in ((given, (30, 60), (3, 3)), (made, (40, 90), (2, 5))):
         assert scan.shape == shape and scan.valid.all()
-        assert f"count every {strides[0]} rows and {strides[1]} columns" in scan.warnings[0]
+        assert f"row numbers go up by {strides[0]} and its column numbers by {strides[1]}" in scan.warnings[0]
     # The case kept pixels 0, 3, 6 ... of 90 x 180.
     np.testing.assert_array_equal(made.points, HALL)
 

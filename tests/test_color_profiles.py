@@ -126,7 +126,7 @@ def test_a_profile_of_tables_is_told_and_its_colors_are_taken_as_srgb(tmp_path):
     path.write_bytes(png(COLORS, profile(None, None, tables=True)))
     np.testing.assert_array_equal(read_image(path, warnings), COLORS)
     assert warnings == [
-        "photo.png: its color profile (made for a test) is one of tables, which is not followed; "
+        "photo.png: its color profile (made for a test) consists of tables, which are not supported; "
         "its colors are taken as sRGB"
     ]
 

@@ -22,7 +22,7 @@ def insufficient_memory():
         (insufficient_memory(), NO_MEMORY),
         (ModuleNotFoundError("No module", name="cv2.x"), "OpenCV is missing"),
         (PermissionError(13, "Permission denied", "a.ptx"), "a.ptx: Permission denied"),
-        (OSError(28, "No space left on device"), "the system refused something: No space left on device"),
+        (OSError(28, "No space left on device"), "the operating system reports: No space left on device"),
         (OSError(5, "Input/output error", b"two\nlines"), r"two\nlines: Input/output error"),
     ],
 )

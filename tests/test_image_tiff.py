@@ -203,12 +203,16 @@ def test_turning_is_that_of_photos():
 @pytest.mark.parametrize(
     ("image", "options", "said"),
     [
-        (np.ones((*SHAPE, 4), np.uint8), {"photometric": "separated"}, "the photometric 5, expected gray or RGB"),
+        (
+            np.ones((*SHAPE, 4), np.uint8),
+            {"photometric": "separated"},
+            "the photometric interpretation 5, expected gray or RGB",
+        ),
         (np.ones(SHAPE, bool), {"photometric": "minisblack"}, "1 bits of the format 1"),
         (np.ones(SHAPE, np.complex64), {"photometric": "minisblack"}, "64 bits of the format 6"),
-        (np.ones(SHAPE, np.int16), {"photometric": "miniswhite"}, "white as zero in numbers that have no greatest"),
-        (np.ones(SHAPE, np.uint16), {"photometric": "cfa"}, "the photometric 32803"),
-        (np.ones((*SHAPE, 3), np.uint8), {"photometric": "rgb", "subfiletype": 1}, "a reduced picture"),
+        (np.ones(SHAPE, np.int16), {"photometric": "miniswhite"}, "white as zero in numbers without a greatest value"),
+        (np.ones(SHAPE, np.uint16), {"photometric": "cfa"}, "the photometric interpretation 32803"),
+        (np.ones((*SHAPE, 3), np.uint8), {"photometric": "rgb", "subfiletype": 1}, "a reduced image"),
     ],
 )
 def test_what_is_not_read_is_told(tmp_path, image, options, said):

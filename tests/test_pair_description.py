@@ -80,7 +80,7 @@ def test_a_bowl_of_360_degrees_is_doubted(pair):
     around = {"type": "spherical", "azimuth_deg": (-180, 180), "elevation_deg": (-45, 90)}
     doubts = previewed(pair({"model": around, "range_scale": 0.0001}, depth=depth, infrared=infrared)).doubts
     assert "all around, its points are 0.18 m away, as in a bowl" in doubts[0]
-    assert "left and right edge do not meet" in doubts[1]
+    assert "left and right edges do not meet" in doubts[1]
 
 
 def test_angles_that_stretch_the_pixels_are_doubted(pair):

@@ -60,8 +60,8 @@ def test_a_report_survives_as_text(report):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "is no JSON"),
-        ("[" * 100_000, "is no JSON"),
+        ("", "is not JSON"),
+        ("[" * 100_000, "is not JSON"),
         ("[]", "is not of the format"),
         ('{"format": "reflcolor-report", "version": 99}', "is not of the format"),
     ],

@@ -200,7 +200,7 @@ def test_every_option_reaches_the_scanner(asked):
         (("--full-turn", "--width-deg", "90"), 2, "--width-deg"),
         (("--elevation-deg", "10"), 2, "--elevation-deg"),
         (("--plain-photos",), 2, "--plain-photos applies to photos; give --photos, too"),
-        (("--photo-samples", "3"), 2, "--photo-samples says how"),
+        (("--photo-samples", "3"), 2, "--photo-samples applies to photos"),
         (("-o", "yard.obj"), 2, "yard.obj: the suffix tells what to write; expected one of .ptx, .e57, .scan.json"),
         (("--rows", "0"), 2, "--rows and --columns: expected 1 or more"),
         (("--rows", "9" * 9), 2, "--rows x --columns: expected at most"),

@@ -115,7 +115,11 @@ def test_lines_of_the_core_are_looked_up_by_their_template(texts, message):
 
 def test_german_words_do_not_hold_english_ones(german):
     """A slip of the hand: a text that was copied and not translated."""
-    same = {text for (_, text), found in german.items() if text == found and re.search(r"[a-z]{4}", text)}
+    same = {
+        text
+        for (_, text), found in german.items()
+        if text == found and re.search(r"[a-z]{4}", re.sub(r"\{.*?\}", "", text))
+    }
     assert same <= {
         "1. Scan",
         "Scan",

@@ -44,7 +44,7 @@ def test_a_run_that_died_between_two_outputs_is_told(run_cli, results, monkeypat
     status, out, err = run_cli("verify", "r.json")
     changed = "changed  out.png: it is whole, but was written by another run or changed since\n"
     assert (status, out) == (1, f"{changed}whole    more/second.png\n")
-    assert err == "error: r.json: 1 of 2 outputs are not as their run wrote them\n"
+    assert err == "error: r.json: 1 of 2 outputs are not as the run wrote them\n"
 
 
 def test_what_is_cut_short_or_gone_is_told(run_cli, results):
@@ -65,7 +65,7 @@ def test_what_is_cut_short_or_gone_is_told(run_cli, results):
 @pytest.mark.parametrize(
     ("change", "part"),
     [
-        (lambda report: report | {"outputs": [{"option": "-o", "path": "out.png"}]}, "does not tell the hashes"),
+        (lambda report: report | {"outputs": [{"option": "-o", "path": "out.png"}]}, "does not hold the hashes"),
         (lambda report: report | {"version": 99}, 'not of the format "reflcolor-report"'),
         (lambda report: [], "not of the format"),
     ],

@@ -130,7 +130,7 @@ def test_every_point_of_a_thinned_grid_gets_the_color_of_its_pixel(tmp_path):
 def test_a_file_that_has_changed_is_told_and_nothing_is_left(tmp_path):
     source, made = tmp_path / "hall.e57", tmp_path / "made.e57"
     write_sample(source, fields())
-    with pytest.raises(OutputError, match=r"hall\.e57 is not the file any more"):
+    with pytest.raises(OutputError, match=r"hall\.e57 has changed since its scans were read"):
         write_e57_colors(source, {0: np.zeros((3, 4, 3), np.uint8)}, made)
     with pytest.raises(Cancelled):
         write_e57_colors(source, {0: np.zeros((*NAMES.shape, 3), np.uint8)}, made, cancelled=lambda: True)
@@ -206,7 +206,7 @@ def test_scans_of_other_formats_are_made_anew_and_what_is_lost_is_told(tmp_path,
     colors = given_colors(scans)
     colored = [ColoredScan(scan=scan, rgb=colors[index]) for index, scan in enumerate(scans)]
     (warning,) = write_scans_back(colored, tmp_path / f"site{suffix}")
-    assert "made anew" in warning
+    assert "written anew" in warning
     for scan, rgb, back in zip(scans, colors.values(), read_scans(tmp_path / f"site{suffix}"), strict=True):
         np.testing.assert_allclose(back.points, scan.points, rtol=0, atol=1e-9)
         np.testing.assert_array_equal(back.color, rgb)
@@ -218,7 +218,7 @@ def test_the_command_writes_colors_back(run_cli, cli_folder, source, made):
         write_e57(read_scans(cli_folder / "garage.ptx"), cli_folder / "garage.e57")
     line = [f"garage.{source}" if word == "garage.ptx" else word for word in COLORIZE]
     status, _, err = run_cli(*line, "-o", "a.ply", "-o", f"made.{made}", "--report", "r.json")
-    assert status == 0 and ("made anew" in err) == (source != made)
+    assert status == 0 and ("written anew" in err) == (source != made)
     (before,), (after,) = read_scans(cli_folder / f"garage.{source}"), read_scans(cli_folder / f"made.{made}")
     (colored,) = read_scans(cli_folder / "a.ply")
     np.testing.assert_allclose(after.points, before.points, rtol=0, atol=1e-9)
