@@ -1,17 +1,22 @@
-"""Which photo shows which scan of a whole archive: python -m benchmarks.archive [--scans N] [--photos M] [--jobs J]
+"""Which photo shows which scan of a whole archive: python -m benchmarks.archive [--scans N] [--photos M] [--folder DIR]
 
-An archive is simulated: rooms painted at random, each scanned once, and photos from about the scanner's place in random
-directions. A batch finds out which photo shows which scan, and its table of pairs is compared with the truth:
+An archive is simulated (benchmarks/rooms.py): rooms painted at random, some of them scanned from two places, and photos,
+every tenth of them of a room that was never scanned. A batch finds out which photo shows which scan, and its table of
+pairs is compared with the truth:
 
 - true pairs lost: a photo that shows a scan, and that matching alone verifies, but that the batch did not find;
-- false pairs: a photo said to show a scan that it does not show;
-- cost: processor time of the batch beside that of matching every photo with every scan. The latter is measured on all
-  true pairs and on a random sample of the others, of the same share for each scan, and summed up.
+- false pairs: a photo said to show a scan of another room;
+- cost: processor time of the batch, colorizing and writing included, beside that of matching every photo with every
+  scan. The latter is measured on all true pairs and on a random sample of the others, and summed up.
+
+With --folder the archive and what was measured are kept there; the command goes on where it was interrupted.
 """
 
 import argparse
 import csv
+import json
 import resource
+import subprocess
 import sys
 import tempfile
 import time
@@ -19,14 +24,15 @@ from pathlib import Path
 
 import numpy as np
 
-from reflcolor_addon.cli.main import main as command_line
+from benchmarks.rooms import Room
 from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.readers import read_scans
 from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.matching import match_photos
 from reflcolor_addon.settings import Settings
-from tests import painted_room
 
-SETTINGS = Settings(slic_segments=150)
+SEGMENTS = 150
+_ASIDE = (0.4, -0.3)
 
 
 def main():
@@ -35,64 +41,84 @@ def main():
     parser.add_argument("--scans", type=int, default=30)
     parser.add_argument("--photos", type=int, default=40)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument(
-        "--sample", type=int, default=20, help="how many wrong pairs are matched to know what they cost"
-    )
+    parser.add_argument("--seed", type=int, default=0, help="another number is another archive")
+    parser.add_argument("--sample", type=int, default=20, help="how many wrong pairs are matched for their cost")
     parser.add_argument("--folder", type=Path, help="where to put the archive, and to keep it")
     arguments = parser.parse_args()
     folder = arguments.folder or Path(tempfile.mkdtemp(prefix="archive-"))
-    truth = make(folder, arguments.scans, arguments.photos)
-    before = processor_time()
-    start = time.perf_counter()
-    status = command_line(
-        ["batch", str(folder / "batch.toml"), "--jobs", str(arguments.jobs), "--keep-going", "--resume"]
-    )
-    seconds, cost = time.perf_counter() - start, processor_time() - before
-    if status:
-        sys.exit(status)
-    found = {(row["scan"], Path(row["photo"]).stem) for row in rows(folder) if row["shows"] == "yes"}
-    tried = len(rows(folder))
-    verified, right_cost = matched(truth, arguments.scans)
-    wrong_cost = sampled(truth, arguments)
-    right = {(f"room_{scan}", f"photo_{photo}") for photo, scan in enumerate(truth)}
-    lost = {pair for pair in right - found if pair in verified}
+    folder.mkdir(parents=True, exist_ok=True)
+    right = make(folder, arguments.scans, arguments.photos, arguments.seed)
+    known = _Known(folder / "measured.json")
+    batch = known.of("batch", lambda: run_batch(folder, arguments.jobs))
+    table = rows(folder)
+    found = {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] == "yes"}
+    pairs = sorted((f"scan_{scan:02d}", f"photo_{photo:02d}") for scan, photo in right)
+    true = [known.of("+".join(pair), lambda pair=pair: matched(folder, *pair)) for pair in pairs]
+    rng, wrong = np.random.default_rng(6), []
+    while len(wrong) < arguments.sample:
+        pair = f"scan_{rng.integers(arguments.scans):02d}", f"photo_{rng.integers(arguments.photos):02d}"
+        if pair not in pairs:
+            wrong.append(known.of("+".join(pair), lambda pair=pair: matched(folder, *pair)))
+    verified = {pair for pair, own in zip(pairs, true, strict=True) if own["verified"]}
+    lost = sorted(verified - found)
     count = arguments.scans * arguments.photos
-    all_pairs = right_cost * len(truth) + wrong_cost * (count - len(truth))
-    print(f"{arguments.scans} scans x {arguments.photos} photos = {count} pairs, {len(truth)} of them true")
-    print(f"matching alone verifies {len(verified)} true pairs; the batch found {len(found & right)}")
-    print(f"true pairs lost: {len(lost)} of {len(verified)} ({len(lost) / max(len(verified), 1):.1%})")
-    print(f"false pairs: {len(found - right)}")
-    print(f"pairs matched after the first look: {tried}")
-    print(f"processor time of the batch {cost:.0f} s ({seconds:.0f} s by the clock, colorizing and writing included)")
-    print(f"all pairs: {all_pairs:.0f} s ({right_cost:.1f} s a true pair, {wrong_cost:.1f} s a wrong one)")
-    print(f"ratio: {cost / all_pairs:.2f}")
+    of_true, of_wrong = (float(np.mean([own["processor"] for own in some])) for some in (true, wrong))
+    everything = of_true * len(pairs) + of_wrong * (count - len(pairs))
+    print(f"{arguments.scans} scans x {arguments.photos} photos = {count} pairs, {len(pairs)} of them true")
+    print(f"matching alone verifies {len(verified)} true pairs; the batch found {len(found & set(pairs))}")
+    print(f"true pairs lost: {len(lost)} of {len(verified)} ({len(lost) / max(len(verified), 1):.1%})", *lost)
+    print(f"false pairs: {len(found - set(pairs))}", *sorted(found - set(pairs)))
+    print(f"matching alone verifies {sum(own['verified'] for own in wrong)} of {len(wrong)} wrong pairs")
+    print(f"pairs matched after the first look: {len(table)} ({len(table) / count:.1%})")
+    print(f"processor time of the batch: {batch['processor']:.0f} s ({batch['seconds']:.0f} s by the clock)")
+    print(f"of all pairs: {everything:.0f} s ({of_true:.1f} s a true pair, {of_wrong:.1f} s a wrong one)")
+    print(f"ratio: {batch['processor'] / everything:.3f}")
 
 
-def make(folder, scans, photos):
-    """Write the archive; return the scan that each photo shows."""
-    rng = np.random.default_rng(5)
-    for number in range(scans):
-        write_ptx(painted_room.scan(seed=number, name=f"room {number}"), folder / f"room_{number}.ptx")
-    truth = [int(scan) for scan in rng.integers(scans, size=photos)]
-    for number, scan in enumerate(truth):
-        write_png(folder / f"photo_{number}.png", picture(number, scan))
-    lines = ('format = "reflcolor-batch"', "version = 1", 'output = "colored"', 'scans = "room_*.ptx"')
-    lines += ('photos = "photo_*.png"', 'write = "png"', "settings = { slic_segments = 150 }")
+class _Known:
+    """What was measured, kept in a file."""
+
+    def __init__(self, path):
+        self._path = path
+        self._values = json.loads(path.read_text()) if path.is_file() else {}
+
+    def of(self, name, measure):
+        if name not in self._values:
+            self._values[name] = measure()
+            self._path.write_text(json.dumps(self._values, indent=1))
+        return self._values[name]
+
+
+def make(folder, scans, photos, seed=0):
+    """Write an archive and its manifest, batch.toml; return which pairs (scan, photo) show the same room."""
+    rng, first = np.random.default_rng((seed, 5)), 1000 * seed
+    scanned = scans - scans // 6
+    rooms = [first + scan % scanned for scan in range(scans)]
+    shown = [int(first + rng.integers(scanned)) for _ in range(photos)]
+    # Nobody scanned these.
+    shown[9::10] = [first + 500 + photo for photo in range(9, photos, 10)]
+    for scan, room in enumerate(rooms):
+        path = folder / f"scan_{scan:02d}.ptx"
+        if not path.is_file():
+            write_ptx(Room(room).scan(place=_ASIDE if scan >= scanned else (0, 0), name=path.stem), path)
+    for photo, room in enumerate(shown):
+        path = folder / f"photo_{photo:02d}.png"
+        if not path.is_file():
+            write_png(path, Room(room).photo(photo))
+    lines = ('format = "reflcolor-batch"', "version = 1", 'output = "colored"', 'scans = "scan_*.ptx"')
+    lines += ('photos = "photo_*.png"', 'write = "png"', f"settings = {{ slic_segments = {SEGMENTS} }}")
     (folder / "batch.toml").write_text("\n".join(lines) + "\n")
-    return truth
+    return {(scan, photo) for scan, own in enumerate(rooms) for photo, room in enumerate(shown) if own == room}
 
 
-def picture(number, scan):
-    """A photo of a room."""
-    rng = np.random.default_rng((number, scan))
-    camera = painted_room.camera(
-        center=rng.uniform((-0.6, -0.3, -0.2), (0.6, 0.5, 0.3)),
-        yaw_deg=rng.uniform(-18, 18),
-        pitch_deg=rng.uniform(-10, 2),
-        roll_deg=rng.uniform(-2, 2),
-        focal=rng.uniform(0.75, 1.1),
-    )
-    return painted_room.photo(camera, seed=scan, gain=rng.uniform(0.8, 1.1))
+def run_batch(folder, jobs):
+    """Run the batch from its beginning."""
+    line = [sys.executable, "-m", "reflcolor_addon", "batch", str(folder / "batch.toml"), "--jobs", str(jobs)]
+    before, start = processor_time(), time.perf_counter()
+    done = subprocess.run([*line, "--keep-going"], check=False)
+    if done.returncode:
+        sys.exit(done.returncode)
+    return {"processor": processor_time() - before, "seconds": time.perf_counter() - start}
 
 
 def rows(folder):
@@ -101,25 +127,12 @@ def rows(folder):
         return list(csv.DictReader(file))
 
 
-def matched(truth, scans):
-    """The true pairs that matching verifies, and the processor time of one."""
-    verified, before = set(), processor_time()
-    for scan in range(scans):
-        for photo in (photo for photo, own in enumerate(truth) if own == scan):
-            matching = match_photos(painted_room.scan(seed=scan), [picture(photo, scan)], SETTINGS)
-            if matching.photos[0].verified:
-                verified.add((f"room_{scan}", f"photo_{photo}"))
-    return verified, (processor_time() - before) / max(len(truth), 1)
-
-
-def sampled(truth, arguments):
-    """The processor time of a wrong pair, from a random sample."""
-    rng, before = np.random.default_rng(6), processor_time()
-    for _ in range(arguments.sample):
-        photo = int(rng.integers(arguments.photos))
-        scan = int(rng.choice([scan for scan in range(arguments.scans) if scan != truth[photo]]))
-        match_photos(painted_room.scan(seed=scan), [picture(photo, truth[photo])], SETTINGS)
-    return (processor_time() - before) / max(arguments.sample, 1)
+def matched(folder, scan, photo):
+    """Match one pair, as nobody would who knew better."""
+    (own,) = read_scans(folder / f"{scan}.ptx")
+    before = processor_time()
+    matching = match_photos(own, [folder / f"{photo}.png"], Settings(slic_segments=SEGMENTS))
+    return {"verified": matching.photos[0].verified, "processor": processor_time() - before}
 
 
 def processor_time():
