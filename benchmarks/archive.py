@@ -1,6 +1,6 @@
 """Which photo shows which scan of a whole archive: python -m benchmarks.archive [--scans N] [--photos M] [--folder DIR]
 
-An archive is simulated (benchmarks/rooms.py): rooms painted at random, some of them scanned from two places, and photos,
+An archive is simulated (benchmarks/rooms.py): rooms painted at random, some scanned from two places, and photos,
 every tenth of them of a room that was never scanned. A batch finds out which photo shows which scan, and its table of
 pairs is compared with the truth:
 
