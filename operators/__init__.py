@@ -2,8 +2,8 @@
 
 from .registration import Registration
 
-# Every module that has something for Blender. Properties come first, others need them; what ends running work comes
-# last, so that it is taken out before anything else.
+# Every module that registers something. Properties come first, because others need them; the module that ends running
+# work comes last, so that it is unregistered first.
 _registration = Registration(
     __package__,
     (

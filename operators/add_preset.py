@@ -7,7 +7,7 @@ from .scene.setting_properties import COLORIZE_NAMES, MATCH_NAMES
 
 
 class _AddPreset(AddPresetBase):
-    """What Blender's base needs to know, from the names of the settings."""
+    """The attributes that Blender's base class expects, made from the names of the settings."""
 
     preset_defines = ["settings = bpy.context.scene.reflcolor"]
 

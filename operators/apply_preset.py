@@ -23,7 +23,7 @@ class REFLCOLOR_OT_apply_preset(bpy.types.Operator):
 
     @classmethod
     def description(cls, _context, properties):
-        """Tell of a button what its own preset is."""
+        """The tooltip of a button: what its preset is for."""
         return tip(PRESETS[properties.preset].help)
 
     def execute(self, context):

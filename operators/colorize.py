@@ -32,7 +32,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
     def prepare(self, context):
         scans, self._left_out = polls.fitting_scans(context, polls.not_colorable)
         self._settings = core_settings(self, context.scene, COLORIZE_NAMES)
-        # Jobs hold names, not objects: those may be gone, or be others after an undo, when the work is done.
+        # Jobs hold names, not objects: after an undo, objects may be gone or be different ones.
         jobs = [_job(obj, self._settings) for obj in scans]
 
         def work(progress, cancelled):
@@ -49,7 +49,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
             if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != job.colorization.rgb.shape[:2]:
                 self.report({"WARNING"}, told("{name} is gone; its colors were dropped", name=job.name))
                 continue
-            # Raises where the mesh cannot take them, before any is changed.
+            # Raises if a mesh cannot take them, before any mesh is changed.
             grid_indices(obj)
             done.append((obj, job))
         for obj, job in done:

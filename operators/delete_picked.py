@@ -1,4 +1,4 @@
-"""Delete the selected seeds by a key, and never anything else."""
+"""Delete the selected seeds with a key, and never anything else."""
 
 import bpy
 

@@ -14,7 +14,7 @@ from .scene.scan_object import COLORIZED, ERROR, SCANNED, add_values, colors_of,
 from .scene.texts import told
 from .window.jobs import JobOperator
 
-# Where no true color is known.
+# Value where no true color is known.
 UNKNOWN = -1.0
 
 

@@ -53,7 +53,7 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
 
     @property
     def filename_ext(self):
-        """What the file browser adds to a name."""
+        """The suffix that the file browser adds to a name."""
         return self.file_format
 
     def invoke(self, context, event):

@@ -32,7 +32,7 @@ from .window.jobs import JobOperator
 _PATTERN = ";".join(f"*{suffix}" for suffix in (*SCAN_SUFFIXES, *IMAGE_SUFFIXES))
 
 _MOST_PHOTOS = 12
-"""Of a file with more photos inside, they are not put on the list unasked: each takes memory."""
+"""A file with more photos than this does not add them to the list by itself: each takes memory."""
 
 _SENSOR_PROPERTIES = {
     "spherical": ("azimuth_left", "azimuth_right", "elevation_bottom", "elevation_top"),
@@ -139,7 +139,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
     swap_images: BoolProperty(name="Swap Images", description="Take the other one of the two images as the range image")
 
     def invoke(self, context, event):
-        # Given by a drop or a script; what was picked the last time does not count as given.
+        # Set by drag and drop or a script; the files picked last time do not count.
         if self.properties.is_property_set("filepath"):
             return self.start(context)
         open_in(self)
@@ -215,7 +215,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         for arrays, entry, inputs, warnings in scans:
             obj = add_scan_object(context, arrays)
             record_import(obj, entry, inputs, warnings)
-            # What was found beside the scans is said with the first of them.
+            # Messages about the rest of the file are reported with its first scan.
             tell(self, obj, told("Imported {name}", name=arrays.name), (*warnings, *doubts), details=inside)
             added.append(obj)
             inside, doubts = [], []

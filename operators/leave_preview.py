@@ -25,7 +25,7 @@ class REFLCOLOR_OT_leave_preview(bpy.types.Operator):
 
 
 class ReflcolorWindow(bpy.types.PropertyGroup):
-    """What is true of the window, not of the file: it is neither saved nor undone"""
+    """State of the window, not of the file: it is neither saved nor undone"""
 
     live_update: bpy.props.BoolProperty(
         name="Live Update",

@@ -36,7 +36,7 @@ class REFLCOLOR_OT_load_photo(JobOperator, bpy.types.Operator, ImportHelper):
     )
 
     def invoke(self, context, event):
-        # Given by a drop or a script; what was picked the last time does not count as given.
+        # Set by drag and drop or a script; the files picked last time do not count.
         if self.properties.is_property_set("filepath"):
             return self.start(context)
         open_in(self, _scan_folder(context))

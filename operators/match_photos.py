@@ -36,7 +36,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
     def prepare(self, context):
         objects, self._left_out = polls.fitting_scans(context, polls.foreign_seeds)
         images = listed_images(context.scene)
-        # A person may rename a photo while the work goes on.
+        # The user may rename a photo while the work goes on.
         self._photos = {image.name: image.session_uid for image in images}
         shift = context.scene.get(SHIFT, (0.0, 0.0, 0.0))
         photos = [photo_of(image, shift) for image in images]
@@ -69,7 +69,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
             if obj is None or not obj.reflcolor.rows:
                 self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=job.name))
                 continue
-            # Raises where the mesh cannot take what was seen, before any scan is changed.
+            # Raises if a mesh cannot take the observed colors, before any scan is changed.
             grid_indices(obj)
             there.append((obj, job, picture))
         for obj, job, picture in there:

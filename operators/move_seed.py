@@ -23,7 +23,7 @@ class REFLCOLOR_OT_move_seed(SeedChoice, SeedPlace, bpy.types.Operator):
 
     def invoke(self, context, _event):
         obj = polls.scan_object(context)
-        with suppress(SeedsError):  # execute() will say it
+        with suppress(SeedsError):  # execute() reports it
             seed = obj.reflcolor.seeds[self.chosen(obj)]
             self.row, self.col = seed.row, seed.col
         return context.window_manager.invoke_props_dialog(self)

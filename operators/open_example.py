@@ -33,7 +33,7 @@ class REFLCOLOR_OT_open_example(bpy.types.Operator):
                 raise ScanError("the example is not there: {path}; install the extension again", path=_FOLDER / name)
         try:
             bpy.ops.reflcolor.load_photo("EXEC_DEFAULT", filepath=str(_FOLDER / _PHOTO))
-            # In the window it goes on after this, so it comes last.
+            # In the window it continues after this call, so it comes last.
             outcome = bpy.ops.reflcolor.import_scan(self._way, filepath=str(_FOLDER / _SCAN))
         except RuntimeError as error:
             raise ScanError("the example: {reason}", reason=blender_reason(error)) from error

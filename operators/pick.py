@@ -45,7 +45,7 @@ class REFLCOLOR_OT_pick(bpy.types.Operator):
             return {"CANCELLED"}
         xy = side.view.to_image(place)
         if tuple(xy) != clamped_point(xy, side.image.size):
-            # Beside the image: as in other editors, that selects nothing.
+            # A click beside the image deselects all, as in other editors.
             return (
                 bpy.ops.reflcolor.select_all_seeds("EXEC_DEFAULT", True, which="none")
                 if side.marks()[0].size

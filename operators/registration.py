@@ -1,6 +1,6 @@
-"""Puts the modules of a package into Blender, by their names alone, and takes them out again in reverse.
+"""Registers the modules of a package by their names, and unregisters them in reverse order.
 
-A module says what it has for Blender, all of it optional:
+A module declares what it registers, all of it optional:
 
 - ``classes``: to be registered, in their order;
 - ``pointers``: (type of Blender's, name of the property, property group);
@@ -38,7 +38,7 @@ class Registration:
             raise
 
     def unregister(self):
-        """Take everything out again; what cannot be taken out keeps nothing else in, and is raised at the end."""
+        """Unregister everything; an error keeps nothing else from being unregistered, and is raised at the end."""
         failed = None
         while self._undo:
             take_out, *what = self._undo.pop()

@@ -6,7 +6,7 @@ from .scene import packages, polls
 from .scene.texts import tip
 
 _EXTENSION = __package__.rpartition(".")[0]
-# The operator has to end before its own class is taken out.
+# The operator has to end before its own class is unregistered.
 _WAIT_S = 0.1
 
 
@@ -33,7 +33,7 @@ def enable_again():
 
 
 def unregister():
-    """Do not do it any more."""
+    """Cancel the scheduled repair."""
     if bpy.app.timers.is_registered(enable_again):
         bpy.app.timers.unregister(enable_again)
 

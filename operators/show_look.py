@@ -32,7 +32,7 @@ class REFLCOLOR_OT_show_look(bpy.types.Operator):
 
     @classmethod
     def description(cls, context, properties):
-        """Tell of a button what it shows, and what is missing for that."""
+        """The tooltip of a button: what it shows, and what is missing for it."""
         look, obj = LOOKS[properties.look], polls.scan_object(context)
         reason = why_not(obj, properties.look) if obj is not None else None
         return f"{tip(look.description)}.\n{tip(reason)}" if reason else tip(look.description)

@@ -37,7 +37,7 @@ class REFLCOLOR_OT_show_notice(NoticeChoice, bpy.types.Operator):
 
     @classmethod
     def description(cls, context, properties):
-        """Tell the whole message, however little of it fits into the panel."""
+        """The tooltip: the whole message, even if it does not fit into the panel."""
         obj = polls.scan_object(context)
         if obj is None or properties.index >= len(obj.reflcolor.notices):
             return cls.__doc__
@@ -74,7 +74,7 @@ def center_images(context, obj, row, col):
         if side is None or not side.is_scan or side.obj != obj:
             continue
         x, y = side.view.to_region((col + 0.5, row + 0.5))
-        # A border as large as the region moves the view and keeps its zoom.
+        # A border as large as the region moves the view but keeps its zoom.
         left, bottom = round(x - region.width / 2), round(y - region.height / 2)
         border = {"xmin": left, "xmax": left + region.width, "ymin": bottom, "ymax": bottom + region.height}
         with context.temp_override(area=area, region=region):

@@ -36,5 +36,5 @@ def _is_there(module):
         spec = find_spec(module)
     except (ImportError, ValueError):
         return False
-    # A folder of which only remains are there has no origin; a loaded module keeps its own when its file is gone.
+    # The remains of a deleted package have no origin; a loaded module keeps its own when its file is gone.
     return spec is not None and spec.origin is not None and Path(spec.origin).exists()

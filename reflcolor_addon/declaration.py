@@ -1,4 +1,4 @@
-"""How a setting is declared: once, for the settings themselves, the panel, the command line and the docs."""
+"""The declaration of a setting, used by the settings themselves, the panel, the command line and the docs."""
 
 import math
 from dataclasses import dataclass, field, fields
@@ -36,7 +36,7 @@ class Choice:
 
 @dataclass(frozen=True, kw_only=True)
 class Setting:
-    """What is known of one setting: everything but its value.
+    """Everything about one setting except its value.
 
     A setting is a number in a range, one of several choices, either of these, or yes or no.
 

@@ -1,4 +1,4 @@
-"""What the package raises when the person who called it can do something about it.
+"""The errors that a caller can do something about.
 
 Every message is one line: the file or thing, the place in it, what was found, what was expected, what to do.
 Anything that is not one of these is a defect of the package and surfaces with its traceback.

@@ -1,7 +1,7 @@
-"""The outermost boundary, for the command line and Blender's operators alike: what a failure is to the person.
+"""Turns failures into one line for the user, at the outermost boundary of the command line and of Blender's operators.
 
-Bad input, a missing package, too little memory, and whatever the operating system refuses are one line. Anything else
-is a defect of the package and surfaces with its traceback.
+Bad input, a missing package, too little memory, and errors of the operating system become one line. Anything else is a
+defect of the package and surfaces with its traceback.
 """
 
 import sys
@@ -16,7 +16,7 @@ _CV2_NO_MEMORY = -4
 
 
 def line_of(error):
-    """Return the one line that tells a person of an exception; None where it is a defect.
+    """Return the line that explains an exception to the user; None where it is a defect.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def line_of(error):
 
 
 def _is_opencv_out_of_memory(error):
-    # Looked up, not imported: an error of OpenCV is there only where OpenCV is.
+    # Looked up, not imported: an error of OpenCV can only occur if OpenCV was imported.
     opencv = sys.modules.get("cv2")
     return opencv is not None and isinstance(error, opencv.error) and error.code == _CV2_NO_MEMORY
 

@@ -1,4 +1,4 @@
-"""How long work tells of its progress and is cancelled; progress of several pieces of work as that of one."""
+"""How long work reports its progress and is cancelled; the progress of several pieces of work as one."""
 
 from collections.abc import Callable
 

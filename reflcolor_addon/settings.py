@@ -1,4 +1,4 @@
-"""What a person can choose about a colorization: each setting is declared here, and nowhere else.
+"""The settings of a colorization: each is declared here, and nowhere else.
 
 The panel, the command line and docs/settings.md are made from these declarations.
 """
@@ -144,7 +144,7 @@ class Settings:
         slider_step=0.1,
         label="Tone",
         help="Above 1 the colors are lighter, below 1 darker, whatever the light comes from; 1 changes nothing",
-        # How light the colors are is the scan's matter, not the method's.
+        # The tone depends on the scan, not on the method, so presets leave it alone.
         in_presets=False,
     )
     matching: str = setting(

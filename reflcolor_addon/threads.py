@@ -1,4 +1,4 @@
-"""How many threads the work may use."""
+"""The number of threads that the work may use."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""A small archive of scans with seeds, and its manifest, for tests of batches."""
+"""A small archive of scans with seeds and a manifest, for tests of batches."""
 
 import json
 from pathlib import Path
@@ -25,7 +25,7 @@ def make_archive(folder, count=3, shape=(12, 16)):
 
 
 def outputs_of(folder):
-    """The bytes of everything that a batch made for its user, by path; a report without the times that it tells."""
+    """The bytes of everything that a batch made for its user, by path; reports without their times."""
     found = {}
     for path in sorted(folder.rglob("*")):
         parts = path.relative_to(folder).parts

@@ -138,7 +138,7 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """With --blender: install the zip before any test module imports what it bundles."""
+    """With --blender: install the zip before any test module imports the bundled packages."""
     # A conftest's own hooks see only what lies below it; a plugin's see the root, too.
     config.pluginmanager.register(_RootIsNoPackage())
     if config.getoption("--blender"):

@@ -1,4 +1,4 @@
-"""A batch: every scan is colorized, nothing twice, one scan's fault never costs another."""
+"""A batch: every scan is colorized once, and one scan's fault never affects another."""
 
 import csv
 import io

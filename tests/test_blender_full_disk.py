@@ -18,7 +18,7 @@ resource = pytest.importorskip("resource", reason="needs limits of POSIX")
 
 @contextlib.contextmanager
 def no_room_beyond(size):
-    """Let no file grow beyond so many bytes: as a full disk does it, every write beyond that fails."""
+    """Limit the size of files: as on a full disk, every write beyond that fails."""
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
     try:

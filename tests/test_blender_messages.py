@@ -1,4 +1,4 @@
-"""What operations have to say, listed in Blender through the installed zip."""
+"""Messages of operations, listed in Blender through the installed zip."""
 
 import importlib
 import json

@@ -1,4 +1,4 @@
-"""Presets of a person's own, in Blender through the installed zip."""
+"""The user's own presets, in Blender through the installed zip."""
 
 from pathlib import Path
 

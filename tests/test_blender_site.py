@@ -378,7 +378,7 @@ def test_cancelling_the_match_leaves_all_scans_as_they_were(seeded, cancelled, t
 
 
 def test_a_photo_verified_on_one_scan_is_found_on_the_other_by_where_its_object_is(blender, tmp_path):
-    """From this corner the photo is not recognized by itself."""
+    """From this corner the photo is not recognized without the other scan."""
     place = {"center": (1.6, 1.5, 0.4), "yaw_deg": 25}
     corner = painted_room.scan(name="corner", **place)
     write_small_ptx(tmp_path / "room.ptx", painted_room.scan())

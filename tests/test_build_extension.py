@@ -1,4 +1,4 @@
-"""The tool that makes the zip: what it stages, that its output is reproducible, what it says when it cannot."""
+"""The tool that makes the zip: what it stages, that its output is reproducible, and its error messages."""
 
 import tomllib
 import zipfile

@@ -1,4 +1,4 @@
-"""The command line given what it cannot use: one line that says so, the right exit status, nothing written."""
+"""The command line with unusable input: one line that says so, the right exit status, nothing written."""
 
 import os
 import struct

@@ -1,4 +1,4 @@
-"""E57 is read in a process of its own: whatever that does, it is one line here, and what it may do is little."""
+"""E57 is read in a separate process: any failure of it is one line here, and its rights are few."""
 
 import ctypes
 import json

@@ -54,7 +54,7 @@ def closed(arguments, numbers):
 
 @pytest.mark.skipif(os.name == "nt", reason="streams are closed the POSIX way")
 def test_closed_streams_change_nothing_in_the_outputs(cli_folder):
-    # Of a broken photo native code prints, to whichever file is number 2.
+    # Native code prints about a broken photo, to whichever file is number 2.
     (cli_folder / "view.jpg").write_bytes(b"\xff\xd8\xff\xe0 broken")
     assert closed((*COLORIZE, "-o", "a.ply"), ()).returncode == 0
     assert closed((*COLORIZE, "-o", "b.ply"), (0, 1, 2)).returncode == 0

@@ -1,4 +1,4 @@
-"""Photos inside E57 files: listed, taken out, and put where the file says if that stands the test."""
+"""Photos inside E57 files: listed, extracted, and placed where the file says if that place can be verified."""
 
 import json
 

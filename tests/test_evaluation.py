@@ -65,7 +65,7 @@ def test_the_structural_similarity_is_that_of_the_windows_that_are_whole():
     truth[:20] = rgb[:20] // 2 + truth[:20] // 2
     valid = np.ones((40, 50), bool)
     valid[:, 20:23] = False
-    # Each side of the gap by itself, but for the windows that leave it.
+    # Each side of the gap alone, without the windows that cross its edges.
     sides = []
     for columns in (slice(None, 20), slice(23, None)):
         images = [image[:, columns] @ [0.299, 0.587, 0.114] for image in (rgb, truth)]

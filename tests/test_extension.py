@@ -189,7 +189,7 @@ def test_blender_reports_no_policy_violation(installed_blender):
 
 
 def test_core_loads_no_blender():
-    """The package that does the thinking runs where there is no Blender."""
+    """The core runs where there is no Blender."""
     sources = (ROOT / "reflcolor_addon").rglob("*.py")
     assert not [path.name for path in sources if "import bpy" in path.read_text() or "from bpy" in path.read_text()]
 

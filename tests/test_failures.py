@@ -1,4 +1,4 @@
-"""The outermost boundary: what is one line to a person, and what is a defect."""
+"""The outermost boundary: which failures are one line, and which are defects."""
 
 import cv2
 import pytest

@@ -1,4 +1,4 @@
-"""What is no ordinary file is refused at once, whatever it is named as, and side files name only what is theirs."""
+"""Anything but an ordinary file is refused at once, and side files may only name files in their own folder."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""How large an image is, is told by its header before anything decodes it."""
+"""The size of an image is read from its header before anything decodes it."""
 
 import cv2
 import numpy as np

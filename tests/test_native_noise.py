@@ -1,4 +1,4 @@
-"""What native code prints about a file does not appear beside the lines that are meant."""
+"""What native code prints about a file does not appear among the messages."""
 
 import os
 

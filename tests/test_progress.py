@@ -4,7 +4,7 @@ from reflcolor_addon.progress import part
 
 
 def told(number, count):
-    """What is told of a piece that says that it has begun and is done."""
+    """The progress of a piece that reports its begin and its end."""
     said = []
     progress = part(lambda *step: said.append(step), number, count, "wall")
     progress(0.0, "Begun")

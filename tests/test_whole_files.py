@@ -1,4 +1,4 @@
-"""A file that is cut short, or whose end was never written, is told from a whole one, whatever its kind."""
+"""A file of any kind that is cut short, or whose end was never written, is distinguished from a complete one."""
 
 import json
 import struct

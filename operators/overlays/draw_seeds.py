@@ -1,4 +1,4 @@
-"""Draws the seeds over the images and the mesh, and what joins a seed to its point in a photo."""
+"""Draws the seeds over the images and the mesh, and lines from seeds to their points in photos."""
 
 from contextlib import suppress
 
@@ -15,19 +15,19 @@ from ..window import seed_picking
 from ..window.tools import SeedTool3D
 from . import drawing
 
-# Radius of a mark in pixels of the screen at a scale of 1, and that below which it is never: many seeds close together
-# have smaller ones, so that they do not hide the image.
+# Usual and smallest radius of a mark, in pixels of the screen at a scale of 1: many seeds close together have smaller
+# marks, so that they do not hide the image.
 _SIZE, _LEAST_SIZE = 8.0, 2.5
 _SHARE_OF_SPACING = 0.35
 _handles = []
-# (what is drawn where) -> (key of the seeds, batch): made anew only when the seeds change.
+# (what is drawn where) -> (key of the seeds, batch): made again only when the seeds change.
 _batches = {}
 # Area -> how it showed its image when it was drawn last.
 _views = {}
 
 
 def register():
-    """Draw from now on."""
+    """Start drawing."""
     if bpy.app.background:
         return
     for space, draw, kind in (
@@ -38,7 +38,7 @@ def register():
 
 
 def unregister():
-    """Draw no more."""
+    """Stop drawing."""
     while _handles:
         space, handle = _handles.pop()
         space.draw_handler_remove(handle, "WINDOW")
@@ -70,7 +70,7 @@ def _batch(place, key, make):
 
 
 def _mark_size(count, width, height):
-    """Radius of the marks where so many share so many pixels of the screen."""
+    """Radius of the marks for a number of seeds in an area of the screen."""
     spacing = mark_spacing(count, width, height) * _SHARE_OF_SPACING
     return max(_LEAST_SIZE, min(_SIZE, spacing)) * bpy.context.preferences.system.ui_scale
 
@@ -153,6 +153,6 @@ def _draw_in_world():
 
     key = seeds.key, tuple(map(tuple, obj.matrix_world)), len(obj.data.vertices)
     size = _mark_size(len(seeds.rows), context.region.width, context.region.height)
-    # In Edit Mode, or where the mesh has lost its grid, nobody knows where the seeds are; operators say so.
+    # In Edit Mode, or if the mesh has lost its grid, the seeds' places are not known; operators report it.
     with suppress(ScanError):
         drawing.draw_marks(_batch((obj.name, "world"), key, make), size)

@@ -25,8 +25,8 @@ void main()
 }
 """
 
-# A disk for a seed picked by hand, a diamond for one found in photos; a dark and a light ring tell it from any image.
-# Editors encode as sRGB what is drawn: what is written here is linear light.
+# A disk for a seed picked by hand, a diamond for one found in photos; a dark and a light ring set it off from any
+# image. Editors encode drawn colors as sRGB, so the shader writes linear light.
 _FRAGMENT = """
 vec3 linear_light(vec3 srgb)
 {
@@ -92,7 +92,7 @@ def _mark_shader():
 
 
 def forget_shaders():
-    """Drop what was made for drawing; the extension is about to go."""
+    """Drop cached drawing data; called before the extension is unregistered."""
     _mark_shader.cache_clear()
 
 
@@ -127,7 +127,7 @@ def draw_marks(batch, size, view=None):
     gpu.state.program_point_size_set(True)
     shader.bind()
     if view is not None:
-        # The image's rows run down, the region's up.
+        # Rows of the image run down, those of the region up.
         corner = view.to_region((0.0, 0.0))
         shader.uniform_float("corner", (corner[0], corner[1]))
         shader.uniform_float("scale", (view.scale[0], -view.scale[1]))

@@ -59,7 +59,7 @@ def legend_of(obj):
 
 
 def number(value, span):
-    """Return a value as text, with as many decimals as tell it from others of that span."""
+    """Return a value as text, with as many decimals as the range of values needs."""
     decimals = 2 if span <= 0 else min(max(0, 2 - math.floor(math.log10(span))), 6)
     return f"{value:.{decimals}f}"
 

@@ -20,8 +20,8 @@ void main()
 }
 """
 
-# Texels are fetched, not filtered: the overlay is as crisp as the image under it. They come as linear light, and the
-# editor encodes what is drawn, as it does the image under it.
+# Texels are fetched, not filtered: the overlay is as crisp as the image under it. They are linear light, and the editor
+# encodes them as it does the image under it.
 _FRAGMENT = """
 void main()
 {
@@ -92,13 +92,13 @@ def scan_side(context):
 
 
 def register():
-    """Draw from now on."""
+    """Start drawing."""
     if not bpy.app.background:
         _handles.append(bpy.types.SpaceImageEditor.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW"))
 
 
 def unregister():
-    """Draw no more."""
+    """Stop drawing."""
     while _handles:
         bpy.types.SpaceImageEditor.draw_handler_remove(_handles.pop(), "WINDOW")
     _shader.cache_clear()

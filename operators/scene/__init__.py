@@ -1,1 +1,1 @@
-"""What ties Blender's data to arrays."""
+"""Blender's data to arrays and back."""

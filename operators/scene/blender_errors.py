@@ -1,8 +1,8 @@
-"""What Blender says when it could not do something, as the end of one line."""
+"""Blender's own error messages, as the end of one line."""
 
 import os
 
-# Blender cuts longer paths off without a word.
+# Blender truncates longer paths silently.
 LONGEST_PATH = 1023
 
 

@@ -3,7 +3,7 @@
 import bpy
 
 SCANS, PICTURE = "Laser Scans", "Laser Scan Picture"
-# On collections: what they were made for, whatever they are called now.
+# Custom property of collections: their purpose, whatever they are called now.
 _PURPOSE = "reflcolor_collection"
 
 

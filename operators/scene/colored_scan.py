@@ -27,7 +27,7 @@ def colored_scans_reader(objects):
     readers = [_reader(obj) for obj in objects]
 
     def read(cancelled=None):
-        # The scans of a site may all be of one large file.
+        # All scans of a site may come from one large file.
         unchanged = lru_cache(maxsize=None)(lambda path, sha256: _is_unchanged(path, sha256, cancelled))
         return [read_one(unchanged) for read_one in readers]
 

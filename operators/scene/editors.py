@@ -17,7 +17,7 @@ def select_only(seeds, indices):
     """Select these of a collection of seeds, and no others."""
     chosen, selected = set(indices), [False] * len(seeds)
     seeds.foreach_get("select", selected)
-    # One by one, and only those that change: set all at once, Blender would draw the mesh again.
+    # One by one, and only those that change: if all were set at once, Blender would draw the mesh again.
     for index, before in enumerate(selected):
         if before != (index in chosen):
             write_quietly(seeds[index], select=not before)

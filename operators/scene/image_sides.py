@@ -9,10 +9,10 @@ from ...reflcolor_addon.view.picking import ImageView, centers, clamped_pixel, n
 from . import polls
 from .seed_arrays import seed_arrays
 
-# How many images beyond its edges a view is measured over: an editor tells places in whole pixels only.
+# How many image sizes beyond its edges a view is measured over: an editor gives places in whole pixels only.
 _MARGIN = 10
 _SCAN_IMAGES = ("reflectance_image", "range_image", "colorized_image", "preview_image")
-# Pixels of the screen, at a scale of 1, from which a seed is hit.
+# Pixels of the screen, at a scale of 1, within which a click hits a seed.
 HIT_RADIUS = 10
 
 
@@ -36,7 +36,7 @@ class Side:
     view: ImageView
 
     def activate(self, context):
-        """Make the scan the active object. Where it is, Blender is told nothing: it would draw the mesh again."""
+        """Make the scan the active object. If it is already, nothing is set: Blender would draw the mesh again."""
         if context.view_layer.objects.active != self.obj:
             context.view_layer.objects.active = self.obj
 

@@ -46,7 +46,7 @@ def write_packed(image, name, data, *, is_data):
     if image is None:
         image = bpy.data.images.new(name, 1, 1, alpha=False, is_data=is_data)
     image.pack(data=data, data_len=len(data))
-    # Has Blender drop the pixels that it had.
+    # Makes Blender drop its cached pixels.
     image.source = "FILE"
     return image
 
@@ -117,12 +117,12 @@ def read_pixels(image):
 
 
 def remember_pixels(image, pixels):
-    """Take it that `read_pixels` of an image that was just made are these."""
+    """Remember the pixels of an image that was just made, for `read_pixels`."""
     _remember(_memory_key(image), pixels)
 
 
 def unregister():
-    """Remember no image; the extension is about to go."""
+    """Forget the remembered image; called before the extension is unregistered."""
     _remembered.clear()
 
 
@@ -133,7 +133,7 @@ def _remember(key, pixels):
 
 
 def _memory_key(image):
-    """What is another for every content that an image is likely to have had."""
-    # The size of an image would have Blender decode it.
+    """A key that changes with the content of an image."""
+    # Asking for the size of an image would make Blender decode it.
     size = image.packed_file.size if image.packed_file else tuple(image.size)
     return image.session_uid, size, image.source, image.filepath

@@ -1,7 +1,7 @@
-"""Settings that nobody changed are saved too, so that a file keeps them when the defaults change.
+"""Saves settings that nobody changed as well, so that a file keeps them when the defaults change.
 
-Blender saves a property only once it was set. A file of the time when Paper was the default therefore has no value
-where that of Paper was meant, and gets it when it is opened.
+Blender saves a property only once it was set. A file from the time when Paper was the default therefore has no values
+for Paper's settings, and gets them when it is opened.
 """
 
 import bpy

@@ -1,6 +1,6 @@
 """Node trees of materials and worlds."""
 
-# Of the node that shows an image of the photos' resolution.
+# Name of the node that shows an image of the photos' resolution.
 _TEXTURE = "Photo Texture"
 
 

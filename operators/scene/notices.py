@@ -6,7 +6,7 @@ from bpy.props import BoolProperty, IntProperty, StringProperty
 from ...reflcolor_addon.messages import about_scan, value_of
 from .texts import shown, told
 
-# More than a person reads; the first ones tell what is wrong.
+# More than anyone reads; the first ones show what is wrong.
 MAX_NOTICES = 200
 
 

@@ -9,7 +9,7 @@ from ...reflcolor_addon.files.readers.pair_description import previewed
 from .texts import shown
 
 _LETTERS = 34
-# The last preview: drawing asks for it again and again.
+# The last preview: every redraw needs it again.
 _made = {}
 
 

@@ -16,7 +16,7 @@ from ...reflcolor_addon.matching.registration.stored import model_document, mode
 from .scan_object import add_values, grid_indices, values_of
 
 _RGB, _WEIGHT, _PHOTO = ".seen_rgb", ".seen_weight", ".seen_photo"
-# On objects: tells one state of these from another.
+# Custom property of objects: a key that changes with the observed colors.
 _KEY = "reflcolor_seen"
 # On objects: how the scan falls into each photo, as JSON; as last found, and as it was when the scan was colorized.
 _CAMERAS, _USED = "reflcolor_cameras", "reflcolor_used_cameras"

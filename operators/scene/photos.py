@@ -12,7 +12,7 @@ from .photo_list import list_photo
 from .provenance import record_photo
 
 PLACE = "reflcolor_place"
-"""On images: the nine numbers of `Place.rotation`, the three of its center, and its focal length."""
+"""Custom property of images: the nine numbers of `Place.rotation`, the three of its center, and its focal length."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ def add_photos(context, file):
     """Make an image of each photo of a PhotoFile and put it on the scene's list; return the images."""
     images = []
     for photo, packed in zip(file.photos, file.packed, strict=True):
-        # Not Blender's own loader: it shows a photo lying on its side where the camera only noted how it was held.
+        # Not Blender's own loader, which ignores the orientation that a camera stores in the file.
         image = write_packed(None, photo.name, packed, is_data=False)
         remember_pixels(image, photo.rgb)
         record_photo(image, file.entry)

@@ -10,9 +10,9 @@ from ...reflcolor_addon.view.picture import LIT
 from .nodes import node_tree_of
 
 SMOOTH_NORMAL = "smooth_normal"
-# On nodes: made for pictures.
+# Custom property of nodes that were made for pictures.
 _MADE = "reflcolor_picture"
-# Of a surface's color, what shows whatever way it faces; the rest shows where it faces the light.
+# Share of a surface's color that shows whichever way it faces; the rest depends on the angle to the light.
 _AMBIENT_SHARE = 0.45
 
 
@@ -33,7 +33,7 @@ def give_look(material, look, toward_light):
     surface = next((node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"), None)
     if surface is None:
         return
-    # Cycles would take every face for a lamp, which costs much time and memory.
+    # Otherwise Cycles would treat every face as a lamp, which costs much time and memory.
     material.cycles.emission_sampling = "NONE"
     make = _Maker(tree, surface.location)
     glow, geometry = make.node("Emission", 0), make.node("NewGeometry", 1)

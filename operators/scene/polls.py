@@ -8,7 +8,7 @@ from .texts import tip, told
 
 
 def nothing_missing(cls, missing):
-    """Whether nothing is missing; if something is, a line that says what to do, the button's tooltip tells it."""
+    """Return whether nothing is missing; if something is, the button's tooltip shows what to do."""
     if missing:
         cls.poll_message_set(missing)
     return not missing

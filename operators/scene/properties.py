@@ -29,7 +29,7 @@ def _color_was_given(seed, _context):
 
 
 def _seed_was_chosen(state, _context):
-    """What is chosen in the list is what is selected in the images."""
+    """Keep the list's active seed and the selection in the images the same."""
     select_only(state.seeds, [state.active_seed])
     redraw_editors()
 

@@ -136,12 +136,12 @@ def _photo_input(name):
 
 
 def _unseen(role, path):
-    """An input whose file was not hashed."""
+    """The entry of an input whose file was not hashed."""
     return {"role": role, "path": path, "bytes": None, "sha256": None}
 
 
 def _read(owner, name):
-    """A record that was kept; an empty one where somebody removed or spoiled it."""
+    """A stored record; an empty one if it was removed or damaged."""
     try:
         record = json.loads(owner.get(name, ""))
     except (ValueError, TypeError):

@@ -16,7 +16,7 @@ def read_provenance(path):
     """
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     try:
-        # Linked, not opened: nothing in it is run, and Blender prints nothing.
+        # Linked, not opened: none of its scripts run, and Blender prints nothing.
         with bpy.data.libraries.load(str(path), link=True) as (there, wanted):
             wanted.objects = list(there.objects)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""How a scan file is to be read, as properties of whatever reads it."""
+"""How to read a scan file, as properties of the operators that do."""
 
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty
 
@@ -6,7 +6,7 @@ from ...reflcolor_addon.files.readers.options import ANGLE, STORED, ReadOptions
 
 
 class ReadingProperties:
-    """What a person knows better than the file tells."""
+    """What the user knows better than the file."""
 
     turn: EnumProperty(
         name="Turn",

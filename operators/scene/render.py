@@ -13,11 +13,11 @@ from .polls import closed_mesh
 from .shown_surface import add_surface, has_surface, remove_surface, switch_surface
 from .viewpoint import covered_by_sidebar, view_of
 
-# On objects: added for a picture; left out of pictures, which the person had not done.
+# Custom properties of objects: added for a picture; hidden in pictures, but not by the user.
 _ADDED, _LEFT_OUT = "reflcolor_for_render", "reflcolor_left_out"
-# Linear light: dark enough for white walls to stand out from, light enough for dark floors.
+# Background, linear light: darker than white walls, lighter than dark floors.
 _BACKGROUND = (0.045, 0.047, 0.05, 1.0)
-# To the left, above and behind the viewer: where the light comes from.
+# The light comes from the left, above and behind the viewer.
 _LIGHT_FROM = Vector((-0.4, 0.5, 1.0)).normalized()
 
 
@@ -100,7 +100,7 @@ def look_through_camera(context):
         return
     area = max(views, key=lambda area: area.width * area.height)
     space, region = area.spaces.active, next(region for region in area.regions if region.type == "WINDOW")
-    # In Local View a view has a camera of its own.
+    # In Local View a 3D View has its own camera.
     space.camera = context.scene.camera
     eye, shown = space.region_3d, context.scene.render
     eye.view_perspective = "CAMERA"
@@ -161,5 +161,5 @@ def _set_up_scene(scene):
     scene.world = world
     background = next(node for node in node_tree_of(world).nodes if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = _BACKGROUND
-    # Seen, but no light.
+    # Visible, but without light.
     world.cycles_visibility.diffuse = False

@@ -1,4 +1,4 @@
-"""How an operator tells a person what is wrong."""
+"""How an operator reports what is wrong."""
 
 from functools import wraps
 

@@ -19,7 +19,7 @@ GRAY = "Reflectance_Gray"
 COLORIZED = "Colorized"
 SCANNED = "Scanned_Color"
 UV_MAP = "Scan_Grid"
-# Of these the material shows one.
+# The material shows one of these.
 SHOWN_IN_RENDERS = (GRAY, COLORIZED, SCANNED)
 CONFIDENCE = "confidence"
 NEAREST_SEED = "nearest_seed"
@@ -27,11 +27,12 @@ OBSERVED = "observed"
 PHOTO = "photo"
 ERROR = "error"
 SHIFT = "reflcolor_shift"
-# On meshes: what the coordinates are measured from, meters in the scanner's frame; degrees, as in `grid_mesh`.
+# Custom properties of meshes: the origin of their coordinates, meters in the scanner's frame; degrees, as in
+# `grid_mesh`.
 CENTER, MAX_INCIDENCE = "reflcolor_center", "reflcolor_max_incidence"
-# On meshes: how many vertices the scan has.
+# Custom property of meshes: how many vertices the scan has.
 RETURNS = "reflcolor_returns"
-# On objects whose colors are guesses, none of them seen by a photo that was verified.
+# Custom property of objects whose colors are all guesses, not seen by any verified photo.
 GUESSED = "reflcolor_guessed"
 _KINDS = {np.float32: "FLOAT", np.int32: "INT"}
 
@@ -54,7 +55,7 @@ def add_scan_object(context, arrays):
     _fill_mesh(mesh, arrays)
     obj = bpy.data.objects.new(arrays.name, mesh)
     obj.matrix_world = Matrix(pose)
-    # Doubles: a shift of six digits does not fit into a float property.
+    # Stored as doubles: a shift of six digits does not fit into a float property.
     obj[SHIFT] = scene[SHIFT] = shift.tolist()
     mesh[CENTER], mesh[MAX_INCIDENCE] = arrays.center.tolist(), arrays.max_incidence_deg
     mesh[RETURNS] = len(mesh.vertices)
@@ -161,7 +162,7 @@ def show_like_reflectance(obj, image):
 def coordinates_of(mesh):
     """Return (N, 3) float32, where the vertices of a mesh are."""
     coordinates = np.empty(3 * len(mesh.vertices), np.float32)
-    # Many times faster than one by one; but in Edit Mode attributes are shown as empty.
+    # Many times faster than one by one, but empty in Edit Mode.
     if mesh.is_editmode:
         mesh.vertices.foreach_get("co", coordinates)
     else:
@@ -304,7 +305,7 @@ def _fill_mesh(mesh, arrays):
     mesh.vertices.add(arrays.coordinates.size // 3)
     mesh.loops.add(corners.size)
     mesh.polygons.add(faces)
-    # As attributes they are written in one piece, as "co" and "vertex_index" one by one.
+    # As attributes they are written at once; "co" and "vertex_index" would be written one by one.
     mesh.attributes["position"].data.foreach_set("vector", arrays.coordinates)
     if faces:
         mesh.attributes[".corner_vert"].data.foreach_set("value", corners)

@@ -23,7 +23,7 @@ NIR_ALBEDO = "nir_albedo"
 # Most dyes and paints are brighter in the near infrared than they look, and red is the visible color next to it.
 _NIR_OFFSET, _NIR_FROM_RGB = 0.1, np.array([0.6, 0.2, 0.1])
 _NOTHING = 1e9
-# Passes by their names in Blender 4 and 5.
+# Names of passes in Blender 4 and 5.
 _DIFFUSE, _GLOSSY = ("DiffCol", "Diffuse Color"), ("GlossCol", "Glossy Color")
 _LEAST_STEP_DEG = 0.01
 _SENSOR_MM = 36.0
@@ -89,7 +89,7 @@ class SceneRenders:
     def photo(self, camera, *, samples):
         """Take a `Photo` with a `VirtualCamera`, with so many light paths per pixel."""
         data, cycles = self._camera_data, self._scene.cycles
-        # Rendered without distortion, and larger, then bent.
+        # Rendered larger and without distortion, then distorted.
         margin = camera.margin_px()
         size = camera.width + 2 * margin, camera.height + 2 * margin
         data.type, data.sensor_fit, data.sensor_width = "PERSP", "HORIZONTAL", _SENSOR_MM
@@ -123,7 +123,7 @@ class SceneRenders:
 
     def _cast(self, scanner_matrix, azimuths, elevations):
         horizontal, vertical = _step(azimuths), _step(elevations)
-        # A row whose pixels reach over the pole cannot be drawn; it sees what its neighbor sees.
+        # A row whose pixels reach over the pole cannot be rendered; it is a copy of its neighbor.
         rows = np.flatnonzero(np.abs(elevations) + vertical / 2 <= 90 + 1e-9)
         data = self._camera_data
         data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"

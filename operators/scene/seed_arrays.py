@@ -10,7 +10,7 @@ from ...reflcolor_addon.seeds.sources import SOURCES
 # The choices of a seed's ``reason``, by their numbers.
 FOUND_BY = tuple(SOURCES)
 
-# Object -> (what was read in bulk, and the names of all images; the names of the photos, which cannot be).
+# Object -> (the bulk arrays and the names of all images, which show changes; the names of the seeds' photos).
 _photo_names = {}
 
 
@@ -76,7 +76,7 @@ def seed_arrays(obj):
     }
     key = hash((active, *(values.tobytes() for values in columns.values())))
     named = _photo_names.get(obj.name)
-    # A photo may be given another name, and another photo its name.
+    # Photos may be renamed, even to each other's names.
     images = tuple((image.name, image.session_uid) for image in bpy.data.images)
     state = key, hash(images), len(bpy.data.objects)
     if named is None or named[0] != state:

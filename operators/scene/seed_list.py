@@ -138,5 +138,5 @@ def place_seed(context, obj, row, col):
         return
     append_seed(obj, row, col, settings.picked_color, settings.picked_photo, settings.picked_xy)
     select_only(obj.reflcolor.seeds, [])
-    # The point of the photo is that of one place only; the color may be that of many.
+    # A point in a photo belongs to one place only; a color may be used for many.
     point_to(settings, picked_photo=None)

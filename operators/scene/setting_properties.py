@@ -17,7 +17,7 @@ _BLEND = {
     ),
     "default": _NUMBER if isinstance(Settings.preset(DEFAULT_PRESET).nearest, int) else "auto",
 }
-# The number that the property starts from, where the default is a choice.
+# The property's initial number where the default is a choice.
 _NEAREST = 8
 
 
@@ -109,7 +109,8 @@ def _settings(chosen):
 def _core_value(setting, value):
     if not setting.kind:
         return setting.named(value)
-    # Blender holds 0.6 in single precision; the shortest number that is stored so is the one that was meant.
+    # Blender stores 0.6 in single precision; the shortest number with the same single-precision value is the intended
+    # one.
     return float(str(np.float32(value))) if setting.kind is float else value
 
 

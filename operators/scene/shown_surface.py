@@ -26,7 +26,7 @@ from .scan_object import (
 MODIFIER = "Shown Surface"
 FILLED, MIXED = "filled", "mixed"
 _SOURCE = "source"
-# On node groups: whether the holes that mixed returns leave are filled.
+# Custom property of node groups: whether the holes left by mixed returns are filled.
 _WITHOUT_MIXED = "reflcolor_without_mixed"
 _SMOOTHINGS = 4
 
@@ -161,7 +161,7 @@ def _nodes(added):
         shown = make.stored(shown, name, kept, _open(sample.outputs, "Value"))
     shown = make.stored(shown, FILLED, "INT", 1)
     joined = make.node("GeometryNodeJoinGeometry")
-    # What is linked last comes first: the scan's own vertices keep their numbers.
+    # The last link comes first, so that the scan's own vertices keep their numbers.
     make.link(shown, joined.inputs[0])
     make.link(measured.outputs[0], joined.inputs[0])
     make.link(joined.outputs[0], result.inputs[0])

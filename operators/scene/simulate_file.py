@@ -29,7 +29,7 @@ def simulate_file(request, progress, written):
     """
     progress(0.0, f"Opening {request.scene.name}")
     try:
-        # What a file brings along is to be looked at, not run.
+        # Scripts in the file must not run.
         bpy.ops.wm.open_mainfile(filepath=str(request.scene), load_ui=False, use_scripts=False)
     except RuntimeError as error:
         reason = blender_reason(error)

@@ -100,7 +100,7 @@ def simulation_steps(scene, simulation):
             for place, (name, camera) in enumerate(cameras.items(), 1)
         }
     grids, hits = ray_grids(model), []
-    # A photo costs about as much as all the rays of a scan.
+    # A photo takes about as long as all rays of a scan.
     last = len(grids) * (1 + len(cameras))
     with SceneRenders(scene) as renders:
         cast = renders.caster(simulation.pose)
@@ -161,7 +161,7 @@ def leveled(matrix, meters_per_unit, axis=1, sign=1.0):
     """Return the (4, 4) float64 pose of a leveled scanner at a matrix's place, looking along one of its axes."""
     across, along, up = (sign * matrix.col[axis][i] for i in range(3))
     if hypot(across, along) < 1e-6 * abs(up):
-        # Straight up or down: no heading to take.
+        # The axis points straight up or down: there is no heading.
         across, along = 0.0, 1.0
     turn = atan2(-across, along)
     pose = np.eye(4)

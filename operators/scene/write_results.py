@@ -46,7 +46,7 @@ def write_results(jobs, paths, render_path, picture, progress):
         progress(0.0, "Building the scene")
         obj = _add_object(context, job)
         objects.append(obj)
-        # What is filled has no place on the texture.
+        # Filled holes have no place on the texture.
         if pictured and picture.filled and job.texture is None:
             surfaces[obj.name] = shown_surface(job.scan, drop_mixed=picture.drop_mixed)
     for obj in objects:
@@ -54,7 +54,7 @@ def write_results(jobs, paths, render_path, picture, progress):
     context.view_layer.objects.active = objects[0]
     steps = [(path, _WRITERS[path.suffix.lower()]) for path in paths]
     if pictured:
-        # All of a site's scans together would be looked at from far above what they stand around.
+        # A view of all scans of a site together would be from far above.
         set_up_picture(context, objects[0], picture, surfaces)
     if render_path is not None:
         steps.append((render_path, lambda path: render(context, path)))

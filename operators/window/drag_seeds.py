@@ -59,7 +59,7 @@ class DragSeeds:
             if self._is_scan:
                 row, col = snapped_place(obj, seed.row, seed.col)
                 write_quietly(seed, row=row, col=col)
-            # A person says now where it belongs.
+            # The user now decides where it belongs.
             write_quietly(seed, reason=FOUND_BY.index("hand"), confidence=1.0)
         redraw_editors()
         return True

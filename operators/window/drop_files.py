@@ -6,7 +6,7 @@ from ...reflcolor_addon.files.images import IMAGE_SUFFIXES
 from ...reflcolor_addon.files.readers import SCAN_SUFFIXES
 from ..scene import polls
 
-# Blender looks at the last suffix of a file alone.
+# Blender only looks at the last suffix of a file.
 _SCANS, _SEEDS = ";".join(sorted({f".{suffix.rpartition('.')[2]}" for suffix in SCAN_SUFFIXES})), ".json"
 
 

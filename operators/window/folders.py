@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-# Operator -> the folder of what was picked last, whatever became of it.
+# Operator -> the folder of the file that was picked last.
 _last = {}
 
 
@@ -21,5 +21,5 @@ def was_picked(operator):
 
 
 def unregister():
-    """Remember no folder; the extension is about to go."""
+    """Forget all folders; called before the extension is unregistered."""
     _last.clear()

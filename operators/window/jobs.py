@@ -9,7 +9,7 @@ from ...reflcolor_addon.errors import Cancelled
 from ..scene.reports import reported
 from ..scene.texts import label, shown, told
 
-# Between two looks at a job.
+# Seconds between two updates of a job.
 _INTERVAL_S = 0.1
 _running = []
 
@@ -20,7 +20,7 @@ def running():
 
 
 def unregister():
-    """End whatever still runs, and wait for it; the extension is about to go."""
+    """End the running job and wait for it; called before the extension is unregistered."""
     for job in _running:
         job.cancel(wait=True)
     _running.clear()
@@ -77,7 +77,7 @@ class ThreadJob(Job):
     def _run(self):
         try:
             self.result = self._work(self._progress, self._cancel.is_set)
-        except BaseException as error:  # whatever it is goes to the window's thread, which raises it
+        except BaseException as error:  # every exception goes to the window's thread, which raises it
             self.error = error
 
     def _progress(self, fraction, text):
@@ -156,8 +156,8 @@ class JobOperator:
     _from_browser = False
 
     def execute(self, context):
-        # Back from the file browser there is a window to show progress in. A script wants the result at once, and so
-        # does the redo panel: Blender crashes where what it repeats goes on.
+        # After the file browser there is a window to show progress in. A script needs the result at once, and so does
+        # the redo panel: Blender crashes if a repeated operator keeps running.
         from_browser, self._from_browser = self._from_browser, False
         return self.start(context) if from_browser else self.run_blocking(context)
 

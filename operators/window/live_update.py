@@ -23,7 +23,7 @@ from . import jobs
 
 PREVIEW = "Live Preview"
 _POLL_S = 0.03
-# Drawing the mesh of a larger scan again takes long on some machines, so it waits for the full result.
+# Redrawing the mesh of a larger scan is slow on some machines, so it waits for the full result.
 _QUICK_VERTICES = 150_000
 
 

@@ -34,7 +34,7 @@ class PointerOperator:
     def invoke(self, context, event):
         self._area, self._region, self._drag = context.area, context.region, None
         if not self.wait:
-            # Where the button went down: only some pixels further on does Blender call it a drag.
+            # Where the button was pressed: Blender reports a drag only some pixels later.
             place = event.mouse_prev_press_x - self._region.x, event.mouse_prev_press_y - self._region.y
             self._drag = self.begin(context, place)
             if self._drag is None:

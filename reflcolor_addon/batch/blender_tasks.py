@@ -1,4 +1,4 @@
-"""What can be done in Blender only, handed in from there: the core itself knows no Blender."""
+"""Tasks that need Blender, passed in by the caller: the core itself does not import it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Looks at a plan before the work begins; what can be wrong with it is found out here, not at its end."""
+"""Checks a plan before the work begins, so that errors are found here and not at its end."""
 
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -39,7 +39,7 @@ class Given:
 
 
 def check_plan(plan, blender=None, *, refuse=_raise):
-    """Look at everything that can be looked at before a scan is read.
+    """Check everything that can be checked before a scan is read.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def _inside(scans):
 
 
 def check_jobs(plan, jobs, *, refuse=_raise):
-    """Look at the rest, now that the scans are known; after this only memory and the disk can fail.
+    """Check the rest, now that the scans are known; after this only memory and the disk can fail.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def load_seeds(path, photos):
 
 
 def check_photos(photos, given, warnings):
-    """See that every photo is an image; warn of one that no seeds name."""
+    """Check that every photo is an image; warn about photos that no seed names."""
     named = {Path(name).name for seeds in given for name in seeds.photos if name}
     for path in photos:
         if not named & {photo.name for photo in photos_of(path, warnings)}:

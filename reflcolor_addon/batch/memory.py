@@ -1,4 +1,4 @@
-"""One estimate of what a whole run takes, before its work begins: matching, colors, meshes, pictures."""
+"""Estimates the memory of a whole run before its work begins: matching, colors, meshes, pictures."""
 
 from pathlib import Path
 
@@ -9,16 +9,16 @@ from ..files.memory import available_bytes, readable
 from ..messages import Message
 from .plan import MESH, RENDER, SCANS, SCENE
 
-# Bytes at the worst moment of each step, beside the scans that are there; docs/reliability.md tells how they were
-# measured. Of a scan's pixel:
+# Peak bytes of each step, in addition to the loaded scans; docs/reliability.md describes how they were measured. For
+# each pixel of a scan:
 _RESULT = 16
 _WRITING = {MESH: 60, SCANS: 60, SCENE: 360, RENDER: 700}
-# Photos are sought on smaller pixels, of which there are so many at most; the scan's own come beside them.
+# Photos are matched on a smaller grid of limited size; the scan's own grid is needed as well.
 _MATCHING, _MATCHING_MOST, _MATCHING_ALWAYS = 2400, 550e6, 130
-# Of a photo's pixel: as it stays, and while it is decoded.
+# For each pixel of a photo: in memory, and while it is decoded.
 _PHOTO, _DECODING = 3, 9
 _SOME_SEEDS = 2000
-"""So many where they are still to be found."""
+"""Assumed number of seeds while they are not known yet."""
 
 
 def require_run(plan, jobs):
@@ -73,7 +73,7 @@ def bytes_of_matching(jobs, photos):
         If a photo is none.
     """
     sizes = [_photo_pixels(photo) for photo in photos]
-    # Scans are looked at one after the other; what is found of each is kept.
+    # Scans are matched one after the other; the results of each are kept.
     largest = max(job.opened().valid.size for job in jobs)
     sought = min(_MATCHING * largest, _MATCHING_MOST) + _MATCHING_ALWAYS * largest
     return _PHOTO * sum(sizes) + max(sought, _DECODING * max(sizes, default=0))

@@ -1,4 +1,4 @@
-"""Files that a run reads and writes: known before the work begins, so that nothing is found out at its end."""
+"""Files that a run reads and writes, known before the work begins, so that conflicts are found early."""
 
 import glob
 import os
@@ -28,7 +28,7 @@ def scan_files(path):
     try:
         description = load_description(path)
     except ScanError:
-        # Its reader will say what is wrong with it.
+        # The reader reports what is wrong with it.
         return [path]
     return [path, *(path.parent / name for name in description.files)]
 

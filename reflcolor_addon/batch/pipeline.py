@@ -59,7 +59,7 @@ def run_plan(plan, session):
             for job in jobs:
                 job.seeds = seeds_from_color(job.opened(), plan.from_color)
     elif plan.seeds is None:
-        # Looking for a file of seeds is no part of it.
+        # The time to find a file of seeds is not counted.
         del times["seeds"]
         with timed(times, "match"):
             find_seeds(
@@ -180,7 +180,7 @@ def find_seeds(jobs, photos, settings, *, registered=None, progress=None, cancel
     )
     for job, matching in zip(jobs, matchings, strict=True):
         job.seeds, job.observed = matching.seeds, matching.observed
-        # The job itself lets its observed colors go when nothing needs them any more.
+        # The job drops its observed colors when nothing needs them any longer.
         job.matching = replace(matching, observed=None)
 
 

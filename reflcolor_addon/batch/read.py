@@ -72,7 +72,7 @@ def _scan_jobs(plan, session):
 
 
 def _labels(names, plan_name):
-    """The names made safe for file names, each another, not even alike but for capitals."""
+    """The names made safe for file names; no two are equal, even if capitals are ignored."""
     if plan_name is not None and len(names) == 1:
         return [plan_name]
     labels = distinct([safe_label(name) for name in names], joint="_", key=str.casefold)

@@ -1,4 +1,4 @@
-"""One run of the pipeline or of the command line: whom it tells, when it ends, and what it leaves."""
+"""One run of the pipeline or of the command line: where its messages go, when it ends, and what it leaves."""
 
 import time
 from collections.abc import Callable

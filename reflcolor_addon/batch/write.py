@@ -80,7 +80,7 @@ class _Writer:
                     write_jpeg(output.path, preview(job.scan, job.colorization))
             self._write_meshes([job], job.outputs)
             self._write_scenes([job], job.outputs)
-        # Nothing that costs more than this is kept until all scans are colorized.
+        # Larger arrays are not kept until all scans are colorized.
         colors = None if job.colorization is None else job.colorization.rgb
         self._rest.append((job, colors if job.texture is None else job.texture))
         if not self._shared:

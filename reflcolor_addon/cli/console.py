@@ -1,4 +1,4 @@
-"""What the command line says: results on standard output, everything else on standard error."""
+"""The output of the command line: results on standard output, everything else on standard error."""
 
 import os
 import shutil
@@ -30,7 +30,7 @@ def open_standard_streams():
 
 
 class Console:
-    """Writes lines, one at a time, whatever is in them; shows progress where standard error is a terminal."""
+    """Writes lines, one at a time, with any content; shows progress where standard error is a terminal."""
 
     def __init__(self):
         self._is_terminal = sys.stderr.isatty()
@@ -55,7 +55,7 @@ class Console:
                 raise OutputError("standard output: cannot be written ({strerror})", strerror=error.strerror) from error
 
     def finish(self):
-        """Write out what is still held back, so that the interpreter's own way out has nothing to complain of."""
+        """Flush the output, so that the interpreter reports no error when it exits."""
         for stream in (sys.stdout, sys.stderr):
             try:
                 stream.flush()
@@ -94,7 +94,7 @@ class Console:
             sys.stderr.write(_encodable(text, sys.stderr))
             sys.stderr.flush()
         except OSError:
-            # Standard error is the last place to complain at.
+            # There is nowhere left to report that standard error fails.
             _silence(sys.stderr)
 
 
@@ -104,6 +104,6 @@ def _encodable(text, stream):
 
 
 def _silence(stream):
-    """Send what is still to come, the interpreter's last flush too, to nowhere."""
+    """Discard all further output, including the interpreter's last flush."""
     with suppress(OSError), Path(os.devnull).open("wb") as nowhere:
         os.dup2(nowhere.fileno(), stream.fileno())

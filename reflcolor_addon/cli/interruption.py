@@ -39,7 +39,7 @@ class Interruption:
         if self._signal is None:
             self._signal = number
         self._count += 1
-        # Once only: what comes while that ends the work changes nothing any more.
+        # Only once: further signals while the work is ending have no effect.
         if self._count == 2:
             raise KeyboardInterrupt
 

@@ -42,7 +42,7 @@ def main(argv, *, prog="python -m reflcolor_addon", blender=None):
         )
         try:
             status, line = _outcome(argv, prog, session, console, interruption)
-        except KeyboardInterrupt:  # a second signal, of one who does not want to wait
+        except KeyboardInterrupt:  # a second signal: the user does not want to wait
             status, line = interruption.exit_status, _INTERRUPTED
         if line is not None:
             written = f"; already written: {', '.join(map(str, session.written))}" if session.written else ""
@@ -69,7 +69,7 @@ def _outcome(argv, prog, session, console, interruption):
         line = line_of(error)
         if line is None:
             raise
-        # A signal can surface as the failure of whatever it struck.
+        # A signal can show up as an error of the code that it interrupted.
         if interruption.requested():
             return interruption.exit_status, _INTERRUPTED
         if isinstance(error, MemoryError) and files:
@@ -84,7 +84,7 @@ def _inputs(arguments):
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line, and leaves the end of the program to the caller."""
+    """Reports errors in one line, and leaves it to the caller to end the program."""
 
     def error(self, message):
         raise UsageError("{message} (see {prog} --help)", message=message, prog=self.prog)

@@ -30,7 +30,7 @@ def add_scans(parser):
 
 
 def add_reading(parser):
-    """How a scan file is to be read, where a person knows better than the file tells."""
+    """How to read a scan file, where the user knows better than the file."""
     group = parser.add_argument_group("reading scans")
     default = ReadOptions()
     group.add_argument(

@@ -21,19 +21,19 @@ from .spreader import HALF_CONFIDENCE_LEVELS, SPREAD, Spreader
 from .tone import tone_to_try
 
 _DEFAULT_MEMORY = 1 << 30
-# Of the progress; the colors are written after it.
+# Share of the progress that is done when the colors are written.
 _JOINED = 0.98
-# Between two looks at the wish to cancel.
+# Pixels between two checks for cancellation.
 _PAINTED_PIXELS = 1 << 19
 _JOIN_BYTES = 120
-"""What joining what photos saw holds at its worst moment, per pixel."""
+"""Peak bytes per pixel while observed colors are joined."""
 
 
 _GUESSED = Message("the colors are guesses: no seed was picked by a person or seen by a photo that was verified")
 
 
 class Colorizer:
-    """Colorizes one scan again and again; what did not change is not computed anew.
+    """Colorizes one scan repeatedly and reuses what did not change.
 
     It holds the scan's graph, the geodesic fields of its seeds, the sums of eq. 1, and what came of them last. A seed
     that is added costs one field; one that is moved, one field and a new sum; one that is removed or recolored, a new
@@ -119,7 +119,7 @@ class Colorizer:
             warnings.insert(0, _GUESSED)
         tone = tone_to_try(self._median, self.settings.tone)
         if tone is not None and self.settings.light == 0:
-            # First, because a list of warnings may be cut.
+            # It comes first, because a list of warnings may be truncated.
             warnings.insert(
                 0, Message("the colors are dark because most of the reflectance is; try tone {tone:g}", tone=tone)
             )
@@ -274,7 +274,7 @@ def colorize(
     >>> result.rgb.shape, result.rgb.dtype, result.confidence.shape
     ((20, 30, 3), dtype('uint8'), (20, 30))
     """
-    # Nothing is colorized a second time, so no field needs to be kept.
+    # The scan is colorized only once, so no field needs to be kept.
     return Colorizer(scan, settings, memory=0).colorize(
         seeds, observed=observed, progress=progress, cancelled=cancelled
     )

@@ -99,7 +99,7 @@ _SPACES = {
     "lalphabeta": _LAlphaBeta(),
     "cielab": _CieLab(),
 }
-# Few enough that what is at work on them stays in the cache.
+# Few enough pixels that the arrays in use stay in the cache.
 _CHUNK_PIXELS = 1 << 15
 
 
@@ -155,7 +155,7 @@ def merge(gray, chrominance_image, color_space):
     """
     space = _SPACES[color_space]
     rgb = np.empty((*np.shape(gray), 3), np.uint8)
-    # In strips: the conversions hold several float64 copies of what they are given.
+    # In strips, because the conversions hold several float64 copies of their input.
     rows = max(1, _CHUNK_PIXELS // max(1, rgb.shape[1]))
     for top in range(0, rgb.shape[0], rows):
         strip = slice(top, top + rows)

@@ -1,4 +1,4 @@
-"""How far colors are from the true ones: CIEDE2000, structural similarity, signal-to-noise ratio of chrominance."""
+"""Compares colors with the true ones: CIEDE2000, structural similarity, signal-to-noise ratio of chrominance."""
 
 import math
 

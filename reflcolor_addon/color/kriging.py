@@ -18,9 +18,9 @@ from ..native import library
 from ..native.kriging import FEATURES, exponential_sums
 from ..scan.normals import surface_normals
 
-# What makes two pixels unlike: each of these is one unit of distance between their features.
+# What makes two pixels different: each of these is one unit of distance between their features.
 SCALES = {
-    # Of the scan's angular extent: the side of a square with the same spread of directions.
+    # As a share of the scan's angular extent: the side of a square with the same spread of directions.
     "direction": 0.5,
     # Of the range 0..255.
     "luminance": 0.5,
@@ -38,8 +38,8 @@ _OUTLIER = 4.0
 _OUTLIER_GAIN, _OUTLIER_LIMIT = 0.1, 5.0
 # Seeds are left out one by one in groups of at most this many: the cost grows with the cube.
 _GROUP = 1000
-# Covariances between pixels and seeds between two looks at the wish to cancel, about 0.1 s; without the kernel, of the
-# matrix of them that is held at once.
+# Covariances computed between two checks for cancellation, about 0.1 s; without the kernel, the size of the matrix in
+# memory.
 _CHUNK_VALUES, _CHUNK_VALUES_HELD = 1 << 26, 1 << 21
 
 
@@ -115,7 +115,7 @@ class Kriging:
 
 def _covariance(one, other):
     """exp(-|f_i - f_j|) for (N, F) and (S, F) features: (N, S)."""
-    # Not by BLAS, whose own threads would contend with those that estimate chunks.
+    # Without BLAS, whose own threads would compete with those that estimate chunks.
     squared = np.einsum("nf,fs->ns", one, np.ascontiguousarray(-2 * other.T))
     squared += np.einsum("ij,ij->i", one, one)[:, None]
     squared += np.einsum("ij,ij->i", other, other)
@@ -143,7 +143,7 @@ def _nuggets(covariance, values, groups, parts):
         best = int(np.argmin(totals))
         nuggets = np.empty(len(values))
         for group, (residuals, precision) in zip(groups, trials[best], strict=True):
-            # Relative to what the covariance alone lets expect.
+            # Relative to the error expected from the covariance alone.
             error = np.linalg.norm(residuals[:, part], axis=1) * np.sqrt(precision)
             median = np.median(error)
             excess = (error / median / _OUTLIER) ** 2 - 1 if median > 0 else np.zeros(len(group))

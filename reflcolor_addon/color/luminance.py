@@ -1,4 +1,4 @@
-"""How light the colors are: as the scan's reflectance, as the seeds tell, or anything between.
+"""The luminance of the colors: the reflectance's, the seeds', or a mixture of both.
 
 A seed has a whole color, so its luminance can be spread over the scan as its chrominance is: along paths (eq. 1) and
 by kriging. What is blended is its square root, because the same step is seen more in the dark. The paper takes the
@@ -12,7 +12,7 @@ from . import colorspaces
 from .tone import toned
 
 CHROMINANCE = slice(0, 2)
-"""Of the channels that are spread."""
+"""Slices of the channels that are spread."""
 LUMINANCE = slice(2, 3)
 
 
@@ -46,7 +46,7 @@ def seed_values(rgb, settings):
 def from_one_seed(root, reflectance, own, settings):
     """Return a spread luminance that is the same everywhere, with detail: half of it is the reflectance's.
 
-    One seed cannot tell what is light and what is dark, and of a picture that is equally light nothing can be seen.
+    One seed does not determine which surfaces are light and which dark, and a picture of one luminance shows nothing.
 
     Parameters
     ----------

@@ -17,14 +17,15 @@ import numpy as np
 
 # R, in units of the geodesic distance: an eighth of the reflectance's whole range.
 _MIDDLE = 32.0
-# What is tried for q, and what is taken for seeds that a person picked.
+# The values of q that are tried, and the one for seeds picked by a person.
 _ODDS, _PICKED_ODDS = np.exp(np.linspace(-5, 5, 41)), math.exp(3)
 PICKED_GAIN = 2.0
-"""By what alpha is multiplied for seeds that a person picked."""
-# What is expected of the share at R counts as much as this many seeds.
+"""Factor of alpha for seeds picked by a person."""
+# The weight of the expected share at R, in seeds.
 _EXPECTED_SEEDS = 30
-# From the first to the second of each, seeds pass for picked: how much the angles between neighbors vary, as a share of
-# their mean; and the median distance from pixels to seeds, as a share of that between seeds.
+# Between the first and the second value seeds count as picked by a person to a growing degree. First pair: variation of
+# the angles between neighbors, relative to their mean. Second: median distance from pixels to seeds, relative to that
+# between seeds.
 _UNEVEN, _NEAR = (0.15, 0.35), (0.85, 0.7)
 
 
@@ -38,7 +39,7 @@ class Mixture(NamedTuple):
         """Return the share of kriging, float32 of 0 to 1, at geodesic distances to the nearest seed."""
         root = np.sqrt(np.where(np.isfinite(distances), distances, 1e6), dtype=np.float32)
         total = root + np.float32(self.odds * math.sqrt(_MIDDLE))
-        # With kriging alone a seed's own pixel is kriging's, too.
+        # With kriging alone, even a seed's own pixel is estimated by kriging.
         return np.divide(root, total, out=np.ones_like(root), where=total > 0)
 
 

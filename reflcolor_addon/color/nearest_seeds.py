@@ -12,16 +12,16 @@ from . import colorspaces
 # input must give the same result everywhere.
 EXACT_PIXEL_SEEDS = 1.5e8
 NUMBERS = (8, 16, 32)
-"""Otherwise the first of these that is enough, or the last."""
+"""Otherwise the first of these that suffices, or the last."""
 # A number of seeds is enough if half of them would have given 95 of 100 pixels the same color within one 8-bit level.
 _ENOUGH_PERCENTILE, _ENOUGH_LEVELS = 95, 1.0
-# Pixels that this is looked up at.
+# Number of pixels at which this is checked.
 _SAMPLE = 50_000
 _GOLDEN = 0.6180339887498949
 
 
 def all_are_few(seeds, pixels):
-    """Whether so many seeds are taken as they are on a scan of so many pixels."""
+    """Whether all seeds are used on a scan of so many pixels."""
     return seeds * pixels <= EXACT_PIXEL_SEEDS or seeds <= NUMBERS[0]
 
 
@@ -57,7 +57,7 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
     for k in dict.fromkeys(min(number, len(pixels)) for number in sought):
         if found is not None:
             _require_memory(engine, k, valid.shape)
-        # Nobody knows yet whether more seeds will have to be sought.
+        # It is not known yet whether more seeds will be needed.
         end = (told + 1) / 2 if settings.nearest == "auto" else 1.0
         found = _found(engine, pixels, k, found, threads, _part_of(progress, told, end), cancelled)
         told, method["nearest"] = end, k
@@ -81,7 +81,7 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
 def sample_of(valid):
     """Return some pixels with a return, spread evenly over a scan's (H, W) ``valid``: (P,) row * W + column."""
     count = min(_SAMPLE, valid.size)
-    # Steps of the golden ratio: no row or column gets more than its share.
+    # Steps of the golden ratio spread the pixels evenly over rows and columns.
     pixels = ((np.arange(count) * _GOLDEN % 1) * valid.size).astype(np.int64)
     return pixels[valid.ravel()[pixels]]
 
@@ -129,7 +129,7 @@ def _found(engine, pixels, k, known, threads, progress, cancelled):
 
 
 def _require_memory(engine, k, shape):
-    """More seeds than were expected to be enough need more memory; raises ReflcolorError."""
+    """Raise a ReflcolorError if the memory for more seeds than expected is missing."""
     _, _, per_nearest = engine.memory
     rows, columns = shape
     require_memory(

@@ -13,15 +13,16 @@ import numpy as np
 from ..geodesic.spreading import spread as geodesic_spread
 from .luminance import seed_values
 
-# What the way costs a pixel, in levels of the reflectance; where the difference has fallen to a half; how many pixels
-# of the border are taken together, by which power of their distances; and over how many pixels each is averaged.
+# Cost of a path per pixel, in levels of the reflectance; distance at which the difference has fallen to a half; number
+# of border pixels that are averaged, the exponent of their distances, and the size of the window over which each is
+# smoothed.
 _STEP, _HALF_WAY = 1.0, 150.0
 _NEAREST, _ALPHA, _AVERAGED = 8, 2.0, 5
-# From which weight on an observed color is held for the surface's own.
+# Weight from which an observed color counts as that of the surface.
 _SURE = 0.9
 # Pixels over which what was seen fades into what is inferred from it.
 _FADES = 3
-# A picked color is held against about so many places of the photos.
+# Number of places in the photos that a picked color is compared with.
 _PLACES = 500
 _STRIP_PIXELS = 1 << 18
 
@@ -56,7 +57,7 @@ class Observed:
 
 
 def outranked(observed, seeds, graph, alpha, control=None):
-    """Return the `Observed` colors without those where a person's seeds tell more.
+    """Return the `Observed` colors without those that seeds of a person override.
 
     A seed that was picked or locked colors what is nearer to it, along paths, than to places all over the photos.
 
@@ -76,7 +77,7 @@ def outranked(observed, seeds, graph, alpha, control=None):
         return observed
     places = np.setdiff1d(_spaced(observed.seen), picked)
     pixels, own = np.concatenate([picked, places]), np.repeat([1.0, 0.0], [len(picked), len(places)])
-    # Each pixel of the way costs something, or on an even wall a seed would reach as far as any.
+    # Each pixel of a path has a cost; otherwise a seed on an even wall would reach everywhere.
     around = replace(graph, step_cost=_STEP)
     shares, _ = geodesic_spread(around, pixels, own[:, None], count=_NEAREST, alpha=alpha, control=control)
     weight = observed.weight * (1 - shares[..., 0])
@@ -130,7 +131,7 @@ def joined(spread, observed, seeds, graph, settings, control=None):
     fading = _fading(observed, graph)
     carried, arrived = _carried(spread, observed, fading, seeds, graph, settings, control)
     values = np.empty_like(spread.values)
-    # Where nothing else arrived what was seen badly is all there is.
+    # Where nothing else arrived, even a badly observed color is kept.
     weight = np.where(spread.reached | arrived, fading, observed.seen).astype(np.float32)
     rows = max(1, _STRIP_PIXELS // values.shape[1])
     for top in range(0, len(values), rows):
@@ -167,7 +168,7 @@ def _carried(spread, observed, fading, seeds, graph, settings, control):
     if not len(pixels):
         return np.zeros_like(spread.values), np.zeros(sure.shape, bool)
     differences = _averaged(observed, pixels, settings) - spread.values.reshape(-1, spread.values.shape[-1])[pixels]
-    # Nothing is to be added to the color that a person gave.
+    # Nothing is added to a color given by a person.
     anchors = _pixels(seeds, seeds.of_a_person & rest[seeds.rows, seeds.cols], graph)
     pixels = np.concatenate([pixels, anchors])
     differences = np.concatenate([differences, np.zeros((len(anchors), differences.shape[1]), np.float32)])
@@ -175,7 +176,7 @@ def _carried(spread, observed, fading, seeds, graph, settings, control):
     carried, distance = geodesic_spread(around, pixels, differences, count=_NEAREST, alpha=_ALPHA, control=control)
     arrived = np.isfinite(distance)
     gain = np.where(arrived, 1 / (1 + distance / np.float32(_HALF_WAY)), 0)
-    # Without any seed the border is all there is.
+    # Without any seed there is only the border.
     gain[arrived & ~spread.reached] = 1
     carried *= gain[..., None]
     return carried, arrived
@@ -202,7 +203,7 @@ def _spaced(seen):
     rows, cols = np.nonzero(seen)
     side = max(1.0, np.sqrt(len(rows) / _PLACES))
     square = (rows / side).astype(np.int64) * seen.shape[1] + (cols / side).astype(np.int64)
-    # That in the middle of each, in reading order.
+    # The middle pixel of each square, in reading order.
     order = np.argsort(square, kind="stable")
     first = np.flatnonzero(np.diff(square[order], prepend=-1))
     middle = (first + np.append(first[1:], len(order))) // 2

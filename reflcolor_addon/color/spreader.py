@@ -1,4 +1,5 @@
-"""What spreads from seeds over a scan: eq. 1, mixed with kriging, held from one time to the next."""
+"""Spreads values from seeds over a scan: eq. 1, mixed with kriging, with intermediate results kept for the next
+time."""
 
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
@@ -23,12 +24,12 @@ from .mixing import PICKED_GAIN, mixture, nearest_other, picked_by_a_person
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
 _HALF_CONFIDENCE = 64.0
 HALF_CONFIDENCE_LEVELS = 5.0
-"""The same, in 8-bit levels, for the difference between eq. 1 and kriging and for what no color can show."""
+"""The same, in 8-bit levels, for the difference between eq. 1 and kriging and for chrominance outside the gamut."""
 _POLL_S = 0.02
-# Of the progress of a colorization.
+# Shares of the progress of a colorization.
 _PROPAGATED, SPREAD = 0.75, 0.95
 _KRIGING_BYTES = 100
-"""What kriging holds at its worst moment, per pixel."""
+"""Peak bytes per pixel of kriging."""
 
 
 class Spread(NamedTuple):
@@ -50,7 +51,7 @@ class Spread(NamedTuple):
 
 
 def bytes_of_colorizing(shape, seeds, settings, *, engine=None, threads=None):
-    """What colorizing a scan takes at its worst moment, in bytes, beside the scan.
+    """The peak memory of colorizing a scan, in bytes, without the scan itself.
 
     Parameters
     ----------
@@ -145,7 +146,7 @@ class Spreader:
                     count=len(seeds),
                 )
             )
-        # The tone, how much of the seeds' luminance is taken, and what photos saw have no part in what is spread.
+        # The tone, the share of the seeds' luminance, and observed colors do not change what is spread.
         asked = replace(self.settings, tone=1.0, light=float(self.settings.light > 0), photo_colors=False)
         wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), asked
         if self._held is None or self._held[0] != wanted:
@@ -162,7 +163,7 @@ class Spreader:
         """Return the Spread of seeds on these pixels."""
         propagated = _PROPAGATED if kriging else SPREAD
         if kriging and self._features is None:
-            # Found while the paths are; after a cancellation nobody waits for it.
+            # Computed in parallel with the paths; after a cancellation nobody waits for it.
             pool = ThreadPoolExecutor(1, "reflcolor")
             self._features = pool.submit(pixel_features, self.scan, self._smoothed)
             pool.shutdown(wait=False)
@@ -176,7 +177,7 @@ class Spreader:
             if picked > 0:
                 alpha *= PICKED_GAIN**picked
                 mean = again(alpha)
-        # What it holds is as large as the result.
+        # It holds arrays as large as the result.
         del again
         reached = np.isfinite(mean.least)
         spread, confidence = mean.values, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
@@ -234,7 +235,7 @@ class Spreader:
         wanted = list(zip(pixels.tolist(), map(tuple, values.tolist()), strict=True))
         done, near = len(self._blended), None
         if self.settings.kriging and pixels.size <= MAX_SEEDS:
-            # Kriging asks how far the seeds are from each other, so every field is seen again.
+            # Kriging needs the distances between seeds, so every field is visited again.
             self._forget_sums()
             near = np.empty((pixels.size,) * 2, np.float32), np.broadcast_to(np.arange(pixels.size), (pixels.size,) * 2)
         if self._blend is None or self._alpha != alpha or self._blended != wanted[:done]:
@@ -247,7 +248,7 @@ class Spreader:
 
         def working(settled=0):
             nonlocal ahead
-            # Pixels are settled a little more than once: they never tell of more than the threads are at.
+            # Pixels are settled a little more than once on average, so this never reports more than is done.
             most = min(len(self._blended) + self.threads, len(wanted))
             ahead = max(ahead, len(self._blended), min(held + settled / inside, most))
             progress(

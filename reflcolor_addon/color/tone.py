@@ -1,11 +1,11 @@
-"""How light a result is: a gamma of its luminance, and the value of it that a dark scan needs."""
+"""The tone of a result: a gamma on its luminance, and the gamma that a dark scan needs."""
 
 import math
 
 from ..settings import SETTINGS
 
-# Medians of 0..255: below the first a picture is called dark; the tone to try brings it up to the second. Of the scans
-# with truth an infrared camera's has 6, the others 110 to 144 (docs/quality.md).
+# Medians of 0..255: below the first a picture counts as dark; the suggested tone raises it to the second. Among the
+# scans with truth, the infrared camera's has 6, the others 110 to 144 (docs/quality.md).
 DARK_MEDIAN, LIGHT_MEDIAN = 50.0, 100.0
 
 

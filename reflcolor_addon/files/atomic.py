@@ -1,4 +1,4 @@
-"""Files that are whole or not there: the one way by which every output goes, Blender's own included."""
+"""Writes files completely or not at all; every output takes this way, Blender's own files included."""
 
 import os
 import stat
@@ -60,7 +60,7 @@ def require_writable(path):
             raise OutputError(
                 "{file}: cannot be written: there is no folder {folder}; make it first", file=path, folder=folder
             )
-        # Asking for permission is no proof (read-only and full disks, network shares); a file is.
+        # A permission check proves nothing (read-only and full disks, network shares); writing a file does.
         with tempfile.TemporaryFile(dir=folder) as file:
             file.write(b"\0")
     except OSError as error:
@@ -93,7 +93,7 @@ def _take_place(temporary, target, found):
     with temporary.open("r+b") as file:
         if found is not None:
             _keep_permissions(temporary, found)
-        # A network's disk tells only now that it is full.
+        # A network disk may report only now that it is full.
         os.fsync(file.fileno())
     if found is not None and found.st_nlink > 1:
         rewrite(target, temporary)
@@ -110,7 +110,7 @@ def _keep_permissions(temporary, found):
 
 
 def _flush_folder(path):
-    """Wait until the disk has the new name, too, where the system lets one ask for that."""
+    """Flush the new name to the disk as well, where the system allows it."""
     if sys.platform == "win32":
         return
     with suppress(OSError):

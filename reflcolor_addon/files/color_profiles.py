@@ -1,7 +1,7 @@
 """The color profile (ICC) that an image file carries, and its colors brought to sRGB.
 
-Only what cameras and phones write is followed: RGB profiles of a matrix and a curve for each channel (ICC.1:2022, 8.3),
-such as Display P3 and Adobe RGB. A profile of tables is told from these, and left.
+Only the profiles that cameras and phones write are applied: RGB profiles with a matrix and a curve for each channel
+(ICC.1:2022, 8.3), such as Display P3 and Adobe RGB. Profiles with tables are recognized and not applied.
 """
 
 import struct
@@ -19,10 +19,10 @@ _LONGEST_CURVE = 65536
 _SRGB_TO_XYZ = np.array(
     [[0.4360747, 0.3850649, 0.1430804], [0.2225045, 0.7168786, 0.0606169], [0.0139322, 0.0971045, 0.7141733]]
 )
-# A profile whose colors are nowhere farther off than this is sRGB: the many versions of it differ by as much.
+# A profile whose colors differ by no more than this is sRGB: its many versions differ by as much.
 _SAME_LEVELS = 2
 _ROWS = 256
-# Of parametric curves (ICC.1:2022, table 68), how many numbers each kind has.
+# How many numbers each kind of parametric curve has (ICC.1:2022, table 68).
 _PARAMETERS = (1, 3, 4, 5, 7)
 
 
@@ -189,7 +189,7 @@ def _curve(tag):
         return value**g
     if kind > 0 and a == 0:
         raise ValueError("no curve")
-    # Where a line begins the curve, and what is added; of the first two kinds it is a constant.
+    # The start of the curve is a line, or for the first two kinds a constant.
     begin, slope, offset, rise = (-b / a, 0.0, 0.0, 0.0) if kind == 1 else (-b / a, 0.0, c, c)
     if kind >= 3:
         begin, slope, offset, rise = d, c, f, e

@@ -16,7 +16,7 @@ _UNREAD = ((0x200, Message("tiled")), (0x800, Message("deep")), (0x1000, Message
 _TYPES = (np.dtype("<u4"), np.dtype("<f2"), np.dtype("<f4"))
 _COMPRESSIONS = ("NONE", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB")
 _ROWS_PER_CHUNK = {"NONE": 1, "RLE": 1, "ZIPS": 1, "ZIP": 16}
-# Bytes that a byte of a compressed picture can become at most.
+# Largest number of bytes that one byte of a compressed picture can unpack to.
 _MOST_UNPACKED = 1100
 _LARGEST_FILE = 1 << 36
 

@@ -1,7 +1,6 @@
-"""The gate that every input file passes: an ordinary file, not empty, no larger than can be meant, opened once.
+"""The gate that every input file passes: it must be an ordinary file, not empty, of plausible size, and is opened once.
 
-What is no ordinary file is refused before it is opened: a pipe or a device may wait for ever, never end, or act on
-being opened.
+Anything else is refused before it is opened: a pipe or a device may block forever, never end, or act on being opened.
 """
 
 import os
@@ -40,7 +39,7 @@ def opened(path, expected, *, error=ReflcolorError, most=None, may_be_empty=Fals
     path = Path(path)
     try:
         _require_ordinary(path.stat(), path, expected, error)
-        # What was a file a moment ago may be a pipe now: opening it must not wait.
+        # A pipe may have replaced the file meanwhile: opening it must not block.
         number = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
         with os.fdopen(number, "rb") as file:
             found = os.fstat(number)
@@ -113,7 +112,7 @@ def beside(path, name, *, outside=False):
     """
     if outside:
         return path.parent / name
-    # A name of any platform is looked at on every one: what is a folder here is a part of the name there.
+    # Names are checked by the rules of every platform: a folder on one may be part of a name on another.
     for kind in (PurePosixPath, PureWindowsPath):
         way = kind(name)
         if way.is_absolute() or way.anchor or ".." in way.parts:

@@ -1,4 +1,4 @@
-"""What an image file is and how large, told by its first bytes before anything decodes it."""
+"""The kind and size of an image file, found from its first bytes before anything decodes it."""
 
 import struct
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ EXPECTED = Message("an image (PNG, JPEG, TIFF, WebP, BMP or EXR)")
 PNG, JPEG, TIFF, WEBP, BMP, EXR = "PNG", "JPEG", "TIFF", "WebP", "BMP", "EXR"
 _PNG_CHANNELS = {0: 1, 2: 3, 3: 3, 4: 4, 6: 4}
 _PNG_WITH_ALPHA = (4, 6)
-# Bytes that a byte of the file can become at most, by the way it is packed; a file that claims more is damaged.
+# Largest number of bytes that one byte of the file can unpack to, by kind; a file that claims more is damaged.
 _MOST_UNPACKED = {PNG: 1100, JPEG: 4096, TIFF: 1600, WEBP: 1 << 20, BMP: 256}
 _HEIC = (b"ftypheic", b"ftypheix", b"ftypmif1")
 # Markers of JPEG that begin a frame, and so tell its size.
@@ -54,7 +54,7 @@ def image_header(data, name):
     """
     kind = _kind(data)
     if kind == EXR:
-        # Its own reader holds its size against the file.
+        # Its own reader checks its size against the file.
         return None
     if kind is None:
         if data[4:12] in _HEIC:

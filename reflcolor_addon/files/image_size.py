@@ -1,4 +1,4 @@
-"""Whether a picture's size, as its header claims it, is one to work with."""
+"""Checks whether the size in a picture's header is usable."""
 
 from ..errors import ImageError
 from ..messages import Message
@@ -6,12 +6,12 @@ from ..scan.limits import MOST_PIXELS
 from .memory import require_memory
 
 _LONGEST_SIDE = 1 << 20
-# What decoding and turning into sRGB take at most, as often as the decoded picture.
+# Peak memory of decoding and converting to sRGB, in copies of the decoded picture.
 _COPIES = 4
 
 
 def require_size(width, height, pixel_bytes, name, *, most):
-    """Raise ImageError where a picture has no size, one beyond all reason, or one that does not fit into memory.
+    """Raise ImageError where a picture has no size, an implausible one, or one that does not fit into memory.
 
     Parameters
     ----------

@@ -252,7 +252,7 @@ def _decoded(data, flags, name, warnings=None):
         raise ImageError("{file}: does not fit into memory", file=name) from None
     if image is None:
         raise ImageError("{file}: cannot be decoded: it is damaged or cut short", file=name)
-    # Of a broken JPEG libjpeg makes up the rest, in gray, and is content.
+    # libjpeg fills the missing part of a broken JPEG with gray and reports success.
     damage = next((line for line in said if line.startswith(_DAMAGE)), None)
     if damage is not None:
         if warnings is None:

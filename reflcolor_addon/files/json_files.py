@@ -8,7 +8,7 @@ from .gate import contents, size_of
 from .memory import require_memory
 
 _MEMORY_PER_BYTE = 12
-"""What a short number or name in a JSON text takes as an object of Python, beside the text itself."""
+"""Memory that a short number or name in a JSON text takes as a Python object, in addition to the text."""
 
 
 def read_json(path, expected, *, error=ReflcolorError, most):
@@ -40,7 +40,7 @@ def _parsed(data, path, expected, error):
             expected=expected,
             problem=wrong.msg,
         ) from wrong
-    except (ValueError, RecursionError) as wrong:  # a number of thousands of digits, brackets without end
+    except (ValueError, RecursionError) as wrong:  # a number with thousands of digits, brackets nested too deeply
         raise error(
             "{file}: expected {expected}, found values that JSON cannot hold", file=path, expected=expected
         ) from wrong

@@ -15,7 +15,7 @@ def available_bytes():
     if on_linux:
         return min(on_linux)
     try:
-        # macOS does not tell what is free; what is built in is the honest upper bound.
+        # macOS does not report free memory; the installed memory is an upper bound.
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, OSError, ValueError):
         return None

@@ -1,4 +1,4 @@
-"""Keeps what native libraries print about a file from the lines that a person reads."""
+"""Keeps the output of native libraries apart from the messages that the user reads."""
 
 import contextlib
 import os
@@ -14,8 +14,8 @@ _MOST = 1 << 16
 def native_output_aside():
     """Hold back what native code writes to stderr in this block; gives a list that holds its lines afterwards.
 
-    Image libraries print about a file before they return their error, which then reads as several, and about oddities
-    of files that are sound.
+    Image libraries print warnings before they return an error, which would then appear as several, and about oddities
+    of valid files.
     """
     lines = []
     with _LOCK, contextlib.ExitStack() as stack:
@@ -25,7 +25,7 @@ def native_output_aside():
             held = stack.enter_context(tempfile.TemporaryFile())
             original = os.dup(2)
         except OSError:
-            # A windowed program may have no stderr at all: then there is nothing to hold back.
+            # A windowed program may have no stderr at all: then there is nothing to capture.
             yield lines
             return
         stack.callback(os.close, original)

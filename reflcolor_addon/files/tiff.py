@@ -1,7 +1,7 @@
 """TIFF pictures, decided by their own tags: planes, sample format, bits, extra samples, photometric, predictor.
 
-OpenCV reads some layouts wrongly and without a word: separate planes of 16 bits stay unset, signed samples end in an
-error, gray with alpha loses bits, white-is-zero is turned over for 8 bits only, colors are multiplied by their alpha.
+OpenCV reads some layouts wrongly without an error: separate planes of 16 bits stay unset, signed samples end in an
+error, gray with alpha loses bits, white-is-zero is inverted for 8 bits only, colors are multiplied by their alpha.
 So it only unpacks LZW and PackBits here, strip by strip, and what the samples mean is worked out from the tags (TIFF
 6.0; technical note 3 for floating point).
 """

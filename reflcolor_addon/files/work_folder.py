@@ -1,8 +1,8 @@
-"""A folder of its own beside a file that is being written, and the end of those that a killed run has left.
+"""A temporary folder beside a file that is being written, and the removal of those that killed runs have left.
 
-Its name begins with ``.reflcolor-``, and it holds a file that stays locked as long as its run lives. The system gives
-the lock up when the run ends, however it ends; a number of a process would not tell that, across containers and
-machines that share a disk.
+Its name begins with ``.reflcolor-``, and it holds a file that stays locked as long as its run lives. The system
+releases the lock when the run ends, however it ends; a process id would not work across containers and machines that
+share a disk.
 """
 
 import os
@@ -16,7 +16,7 @@ from .locks import try_lock
 PREFIX = ".reflcolor-"
 _LOCK = ".reflcolor-owner"
 _TRIES = 100
-# Folders that this process has already cleaned; what is left there later was left by another.
+# Folders that this process has already cleaned; anything found there later belongs to another run.
 _cleaned: set[Path] = set()
 
 
@@ -48,7 +48,7 @@ def work_folder(parent, *, rescue):
 def _owned_folder(parent):
     for _ in range(_TRIES):
         folder = Path(mkdtemp(prefix=PREFIX, dir=parent))
-        # Until the lock is held, another run may take the folder for one that was left, and remove it.
+        # Until the lock is held, another run may mistake the folder for an abandoned one and remove it.
         with suppress(FileNotFoundError):
             lock = (folder / _LOCK).open("xb")
             if try_lock(lock) is not False and os.fstat(lock.fileno()).st_nlink:
@@ -70,7 +70,7 @@ def _clean(parent, rescue):
 
 
 def _is_ours(entry):
-    """A folder of this user: in a place for everybody, others may leave what looks like one."""
+    """Only folders of this user: in a shared place, others may leave something that looks like one."""
     if not entry.is_dir(follow_symlinks=False):
         return False
     return not hasattr(os, "geteuid") or entry.stat(follow_symlinks=False).st_uid == os.geteuid()
@@ -80,7 +80,7 @@ def _remove_unless_alive(folder, rescue):
     try:
         lock = (folder / _LOCK).open("r+b")
     except FileNotFoundError:
-        # Killed before it locked anything; where that is still to come, its run makes another folder.
+        # The run was killed before it locked anything; if it is alive and about to lock, it makes another folder.
         folder.rmdir()
         return
     with lock:

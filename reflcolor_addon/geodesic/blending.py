@@ -8,7 +8,7 @@ import numpy as np
 
 from .kernel import Mean
 
-# Of the tables of the seeds' values, as in the kernel, and how many chords find how far a mean can move.
+# Size of the tables of the seeds' values, as in the kernel, and how many chords bound the change of a mean.
 _BINS, _CHORDS, _FINE = 256, 3, 0.25
 _RAISED = 1.0001
 

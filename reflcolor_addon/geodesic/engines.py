@@ -1,4 +1,6 @@
-"""What computes the geodesic distances: the native kernel, or scipy where none loads. Both offer the same names.
+"""Computes geodesic distances: with the native kernel, or with scipy where it does not load.
+
+Both have the same methods.
 
 Distances are float32. A path of n steps lies within (n + 7) 2^-24 of its exact length with the kernel; scipy's are
 float64, rounded.
@@ -26,7 +28,7 @@ class NativeEngine:
 
     name = f"reflcolor kernel, interface {kernel.ABI_VERSION}"
     note = None
-    # What is held at once, in bytes per pixel: always, per thread, and per nearest seed.
+    # Memory in bytes per pixel: always, per thread, and per nearest seed.
     memory = (90, 20, 10)
 
     def __init__(self, graph):
@@ -114,7 +116,7 @@ class Listed:
 
 
 class _Flag:
-    """The wish to cancel, and the seeds done."""
+    """The request to cancel, and the number of seeds done."""
 
     def __init__(self):
         self.done = 0

@@ -73,7 +73,7 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled, working
     def tell():
         working(control.done)
 
-    # One thread more: this one is to ask whether it should go on.
+    # One more thread: this one checks for cancellation.
     with ThreadPoolExecutor(threads + 1, "reflcolor") as pool:
         ahead, index = {}, 0
         try:
@@ -110,7 +110,7 @@ def _missing(seeds, first, held, count):
 
 
 def awaited(later, control, tell, cancelled):
-    """The result of a future; the caller's own thread asks ``cancelled()`` and tells the progress meanwhile."""
+    """The result of a future; meanwhile the caller's own thread asks ``cancelled()`` and reports the progress."""
     while True:
         if cancelled():
             control.cancel()
@@ -122,7 +122,8 @@ def awaited(later, control, tell, cancelled):
 
 
 def done_apart(control, work, tell, cancelled):
-    """Return ``work(control)``, done by a thread; this one asks whether to go on, and tells how far it is."""
+    """Return ``work(control)``, run in a thread; meanwhile this one checks for cancellation and reports the
+    progress."""
     with ThreadPoolExecutor(1, "reflcolor") as pool:
         later = pool.submit(work, control)
         try:

@@ -59,10 +59,11 @@ MAX_PARTS = 64
 
 # Windows has no other anonymous memory; elsewhere, shared is the default and costs more.
 _PRIVATE = {"flags": mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS} if hasattr(mmap, "MAP_PRIVATE") else {}
-# Blended at once: few enough for the sums to stay in the cache, and between two looks at the wish to cancel.
+# Pixels blended between two checks for cancellation: few enough for the sums to stay in the cache.
 _PIXELS_AT_ONCE = 1 << 15
 _ROWS_AT_ONCE = 64
-# For so many nearest seeds it pays to find a few first: they tell the distances between seeds, and those the bounds.
+# From this number of nearest seeds on it pays to find a few first: they give the distances between seeds, which give
+# bounds.
 _MANY, _FEW = 16, 4
 
 

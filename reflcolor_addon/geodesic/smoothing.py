@@ -2,7 +2,7 @@
 
 import numpy as np
 
-# How far the Gaussian reaches, in standard deviations.
+# Radius of the Gaussian, in standard deviations.
 _REACH = 4.0
 
 

@@ -1,1 +1,1 @@
-"""What was done, with what, to what."""
+"""Reports of runs: inputs, settings, outputs."""

@@ -1,4 +1,4 @@
-"""A report that gets to know of one more output, made later."""
+"""Adds an output that was made later to a report."""
 
 from .provenance import read_report
 from .report import REPORT_OPTION, output_entry, write_report

@@ -92,7 +92,7 @@ def _entries(root, session):
     for name, item in items.items():
         left_out = item.get("left_out") or []
         for label in left_out:
-            # A report of it is of an earlier time, when a photo did.
+            # An older report may exist from a time when a photo showed it.
             entries[label] = _entry(label, "unshown", note="no photo shows this scan")
         if item.get("outcome") == "failed":
             own = [label for label in entries if label == name or label.startswith(f"{name}+")]

@@ -1,4 +1,4 @@
-"""What a report says of where colors are from, for people: which are evidence, and which are inference."""
+"""Describes for people where the colors of a report come from: which are evidence, and which are inference."""
 
 import json
 from collections import Counter

@@ -1,4 +1,4 @@
-"""What was done, with what, to what: enough to do it again."""
+"""The report of a run: inputs, settings and outputs, complete enough to repeat it."""
 
 import hashlib
 import importlib.metadata

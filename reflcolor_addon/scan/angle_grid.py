@@ -1,4 +1,4 @@
-"""A grid for points that have none: by the angles under which the scanner saw them."""
+"""Lays a grid over points that have none, by the angles at which the scanner saw them."""
 
 from dataclasses import dataclass
 
@@ -13,16 +13,16 @@ _FULL = 0.8
 """Share of returns that have neighbors in a grid that is fine enough but not too fine."""
 
 _FINER = 1.1
-"""From one try to the next."""
+"""Factor from one try to the next."""
 
 _PERIODS = 32
-"""Steps of a lattice that it is first looked for in; more would take finer tries."""
+"""Steps of a lattice in the first search; more would need finer tries."""
 
 _SHARP = 0.1
-"""How sharp the angles' lattice must be, 0 to 1, to be taken for one; a third of a step of noise leaves 0.12."""
+"""How sharp the lattice of angles must be, 0 to 1, to be accepted; noise of a third of a step leaves 0.12."""
 
 _ABOVE_CHANCE = 5.0
-"""And how many times as sharp as points by chance."""
+"""How many times sharper it must be than that of random points."""
 
 _ASPECTS = np.geomspace(1 / 8, 8, 13)
 
@@ -81,7 +81,7 @@ def grid_by_angle(points, *, step_deg=None):
     # To the right from the left edge.
     along = (left - azimuth) % 360.0
     down = elevation.max() - elevation
-    # What lies at the edge may come out a turn away.
+    # Angles at the edge may be off by a full turn.
     along[along > 360.0 - 1e-9] = 0.0
     if np.ptp(along) == 0 or np.ptp(down) == 0:
         raise ScanError("the points lie in one line as seen from the scanner; there is no grid to lay over them")
@@ -154,7 +154,7 @@ def _left_edge(azimuth):
 
 def _steps_by_filling(down, along):
     """The finest steps (vertical, horizontal) with which most returns have neighbors."""
-    # A part all of one piece tells as much as the whole.
+    # A contiguous part gives the same answer as the whole.
     share = min(1.0, _SAMPLES / len(along))
     middle, half = np.median(along), np.ptp(along) * share / 2
     part = np.abs(along - middle) <= half
@@ -208,7 +208,7 @@ def _lattice(angles, guess):
         if len(inside) < _FEWEST:
             return None
         sharpness, phases = _sharpness(inside - start, steps)
-        # Half a lattice's step is as sharp as the step; the widest is meant.
+        # Half a lattice's step is as sharp as the step itself; the widest step is the right one.
         best = int(np.flatnonzero(sharpness >= 0.95 * sharpness.max()).max())
         if sharpness[best] < max(_SHARP, _ABOVE_CHANCE / np.sqrt(len(inside))):
             return None

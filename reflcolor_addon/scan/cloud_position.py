@@ -1,4 +1,4 @@
-"""Where the scanner stood, for points without a grid that are still in the order in which it measured them.
+"""Finds the scanner's position for points without a grid that are still in the order of measurement.
 
 Points that follow each other lie in one upright plane through the scanner, however far away each of them is.
 """
@@ -12,14 +12,14 @@ _RUNS = 512
 _HEIGHTS = 65
 _ROUNDS = 4
 _MOST_CONFLICTS = 0.15
-"""Share of points that lie behind others, above which a place cannot be the scanner's."""
+"""Share of points behind others above which a place cannot be the scanner's."""
 
 _EXACT = 1.3
-"""How much better a place must be that is found than one that is named, for what is named is exact."""
+"""How much better a computed place must be than a stated one, because stated places are exact."""
 
 _IN_CELL = 8
 _BEHIND = 0.1
-"""Of the cloud's own extent."""
+"""As a share of the cloud's extent."""
 
 _SAMPLES = 1 << 18
 
@@ -75,7 +75,7 @@ def _found(points):
     if len(points) < 16 * _RUN:
         return None
     starts = np.linspace(0, len(points) - _RUN, min(_RUNS, len(points) // _RUN)).astype(np.int64)
-    # One run of points after each other per column, as `meeting_point` has the columns of a grid.
+    # One run of consecutive points per column, as `meeting_point` expects the columns of a grid.
     runs = points[starts[None, :] + np.arange(_RUN)[:, None]]
     middle = np.median(points[:: max(1, len(points) // 10_000)], axis=0)
     ground = meeting_point(runs - middle, np.ones(runs.shape[:2], bool))

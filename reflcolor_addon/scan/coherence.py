@@ -1,4 +1,5 @@
-"""Whether neighbors in a stored order are neighbors in space: what tells a scanner's grid from a list of points."""
+"""Checks whether neighbors in a stored order are neighbors in space, as in a scanner's grid but not in a list of
+points."""
 
 import math
 
@@ -6,7 +7,7 @@ import numpy as np
 
 _PAIRS = 1 << 15
 _FEWEST = 30
-"""Fewer pairs of points tell nothing."""
+"""Fewer pairs of points are not conclusive."""
 
 _CLEARLY_NEARER = 0.5
 """How much nearer neighbors must be in another order before it is taken instead of the stated one."""

@@ -1,4 +1,4 @@
-"""Whether a grid of numbered pixels is whole: numbers that skip rows and columns, and grids that were thinned out."""
+"""Checks whether a grid of numbered pixels is complete: skipped rows and columns, and grids that were thinned out."""
 
 import math
 from dataclasses import dataclass
@@ -9,12 +9,12 @@ _THINNED = 0.6
 """Share of returns with a return beside them, below which a grid was thinned; whole scans have 0.9 and more."""
 
 _WHOLE = 0.75
-"""And the share that a coarser grid must reach to be taken instead."""
+"""The share that a coarser grid must reach to replace it."""
 
 _COARSEST = 8
 _FEWEST_LINES = 3
 _FEWEST_RETURNS = 64
-"""Fewer tell nothing of how a grid was thinned."""
+"""Fewer are not conclusive."""
 _SAMPLES = 1 << 22
 
 
@@ -97,7 +97,8 @@ def coarser(valid):
 
 
 def neighbor_share(valid):
-    """Return the share of returns, 0..1, that have a return to the right and below, in the mean; 1 for no returns."""
+    """Return the share of returns, 0..1, that have a return to the right, averaged with that below; 1 for no
+    returns."""
     shares = _neighbor_shares(valid)
     return float(np.mean(shares)) if shares else 1.0
 

@@ -6,7 +6,7 @@ import numpy as np
 
 MAX_INCIDENCE_DEG = 88.0
 STRIP_PIXELS = 1 << 18
-"""Pixels that are worked on at a time, so that a large scan needs no array of doubles beside its own."""
+"""Pixels processed at a time, so that a large scan needs no further array of doubles."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -29,7 +29,7 @@ def normalize(values, valid):
         return image, (0.0, 0.0)
     low, high = (float(limit) for limit in np.percentile(inside, PERCENTILES))
     if low == high:
-        # Nearly all pixels are equal; what little contrast there is lies beyond the percentiles.
+        # Nearly all pixels are equal; the little contrast there is lies beyond the percentiles.
         low, high = float(inside.min()), float(inside.max())
     if low < high:
         image[valid] = np.clip((inside - low) / (high - low), 0, 1) * 255

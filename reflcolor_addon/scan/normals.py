@@ -62,7 +62,7 @@ def _of_strip(points, valid, above, below, wrap):
     inside = grid[_PAD:-_PAD, _PAD:-_PAD]
     away = np.einsum("ijk,ijk->ij", normal, inside[..., :3]) > 0
     length = np.linalg.norm(normal, axis=-1)
-    # Averages of one and the same points differ by roundings, which have no direction.
+    # Averages of the same points differ only by rounding, which has no direction.
     span = np.linalg.norm(across, axis=-1) * np.linalg.norm(along, axis=-1)
     spans = (inside[..., 3] > 0) & (length > 1e-3 * span) & (span > 0)
     scale = np.divide(np.where(away, -1, 1), length, out=np.zeros_like(length), where=spans)

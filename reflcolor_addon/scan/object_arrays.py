@@ -1,4 +1,4 @@
-"""A scan's mesh and images as the arrays that Blender stores, made where no window waits for them."""
+"""A scan's mesh and images as the arrays that Blender stores, made outside Blender's main thread."""
 
 from dataclasses import dataclass
 from pathlib import Path

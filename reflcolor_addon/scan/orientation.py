@@ -1,4 +1,4 @@
-"""Which way up a stored grid is, told by its own points, and how to turn a scan that was told wrongly."""
+"""Finds which way up a stored grid is from its points, and turns scans by hand where that fails."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -12,13 +12,13 @@ _SWAPPED = 1.5
 """How much more the height must change along a row than along a column before the two are taken to be swapped."""
 
 _SAMPLES = 256
-"""Rows and columns that are looked at; more would only repeat what these say."""
+"""Rows and columns that are sampled; more would not change the answer."""
 
 _CAMERA_TURN_DEG = 45.0
-"""A depth camera looks along its Z axis: so far from it, at most, may the middle of what it saw be."""
+"""A depth camera looks along its Z axis: largest angle between that axis and the middle of the points."""
 
 _CAMERA_EDGE_DEG = 80.0
-"""And so far from the middle any single point."""
+"""Largest angle between that middle and any point."""
 
 Z_UP = np.array([0.0, 0.0, 1.0])
 
@@ -192,13 +192,13 @@ def thinned(scan, step):
 
 
 def _sampled(points, valid):
-    """Whole blocks of neighbors are not needed: every n-th row and column keeps order and sense."""
+    """Every n-th row and column suffices: it keeps order and direction."""
     steps = tuple(slice(None, None, -(-size // _SAMPLES)) for size in valid.shape)
     return np.asarray(points[steps], np.float64), np.asarray(valid[steps], bool)
 
 
 def _lag(size):
-    """How many pixels apart pairs are taken: some, to stand above the noise, but few, to stay on one side of a turn."""
+    """How many pixels apart pairs are: enough to stand above the noise, few enough to stay on one side of a turn."""
     return max(1, min(8, size // 8))
 
 

@@ -15,7 +15,7 @@ _CLEARLY_BETTER = 0.25
 """How much smaller the spread must be from another place than from the stated one."""
 
 _REGULAR = 1.0
-"""And how small, in steps of the grid, for that place to be believed."""
+"""Largest spread, in steps of the grid, of a credible place."""
 
 _FEWEST_IN_LINE = 5
 _FEWEST_LINES = 4
@@ -23,7 +23,7 @@ _REPEATED_SHARE = 0.002
 _FEWEST_REPEATED = 8
 _ROUNDS = 4
 _HASH = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
-"""Large odd numbers: two points of one sum are two of one place."""
+"""Large odd numbers: equal sums mean equal points."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -91,7 +91,7 @@ def repeated_point(points):
     """
     if len(points) < 2 * _FEWEST_REPEATED:
         return None
-    # Many times faster than to sort by three numbers; one zero is as good as the other.
+    # Many times faster than sorting by three numbers; 0 and -0 count as equal.
     hashes = (points + 0.0).view(np.uint64) @ _HASH
     ordered = np.sort(hashes)
     starts = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]]))
@@ -139,7 +139,7 @@ def meeting_point(points, valid):
         _, length, axes = np.linalg.svd(ground - middle, full_matrices=False)
         if length[0] > 0:
             lines.append([*axes[1], axes[1] @ middle])
-            # A column that sees one upright wall tells no direction; one that sees floor and wall does.
+            # A column that sees only one upright wall gives no direction; one that sees floor and wall does.
             weights.append(length[0])
     if len(lines) < _FEWEST_LINES:
         return None
@@ -256,13 +256,13 @@ def _from_middle(angle, valid, *, wraps):
 
 def _medians(values, valid):
     """(W,) medians of the valid (H, W) values of each column; every column has some."""
-    # A masked median is many times slower.
+    # A masked median would be many times slower.
     ordered = np.sort(np.where(valid, values, np.inf), axis=0)
     count, columns = valid.sum(axis=0), np.arange(valid.shape[1])
     return (ordered[(count - 1) // 2, columns] + ordered[count // 2, columns]) / 2
 
 
 def _sampled(points, valid):
-    """Every n-th row and column, so that a large grid costs no more than a small one."""
+    """Every n-th row and column, so that a large grid takes no longer than a small one."""
     steps = tuple(slice(None, None, max(1, size // _LINES)) for size in valid.shape)
     return points[steps], valid[steps]

@@ -77,7 +77,7 @@ class Scan:
                 most=MOST_PIXELS,
             )
         arrays = {
-            # A copy: nobody else is to change them, nor to have them changed.
+            # A copy, so that changes of the caller's array and of this one stay apart.
             "points": np.array(self.points, np.float64, order="C"),
             "reflectance": np.ascontiguousarray(self.reflectance, np.float32),
             "valid": np.ascontiguousarray(self.valid, bool),
@@ -103,7 +103,7 @@ class Scan:
             object.__setattr__(self, key, array)
 
     def _require_types(self):
-        """What NumPy would convert without a word, and rarely as it was meant."""
+        """Refuse types that NumPy would convert silently, and rarely as intended."""
         for key, kinds in (("points", "iuf"), ("reflectance", "biuf"), ("valid", "b"), ("pose", "iuf")):
             kind = np.asarray(getattr(self, key)).dtype
             if kind.kind in kinds:
@@ -144,7 +144,8 @@ class Scan:
 
     @cached_property
     def has_reflectance(self) -> bool:
-        """False where it is the same everywhere, as files without any have it: then there is nothing to colorize by."""
+        """False where the reflectance is the same everywhere, as in files without any: then there is nothing to
+        colorize by."""
         seen = self.reflectance[self.valid]
         return seen.size < 2 or bool(seen.min() < seen.max())
 
@@ -203,7 +204,7 @@ def require_scan(scan):
 
 
 def is_plausible(pose):
-    """Whether a (4, 4) pose can be a scanner's: not beyond all reason, and it can be undone; see `limits`."""
+    """Whether a (4, 4) pose can be a scanner's: within the `limits`, and invertible."""
     linear, place = pose[:3, :3], pose[:3, 3]
     if not (np.abs(place).max() <= FARTHEST_M and np.abs(linear).max() <= SCALES[1]):
         return False

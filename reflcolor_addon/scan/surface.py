@@ -1,4 +1,4 @@
-"""A colored scan as vertices and faces, handed out strip by strip, so that a large one is written in little memory."""
+"""A colored scan as vertices and faces, given strip by strip, so that a large one can be written in little memory."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -151,7 +151,7 @@ class ScanSurface:
         scan, seam = self.scan, []
         for strip in self._strips(scan.shape[0]):
             sums, valid = self._normals(strip).astype(np.float64), scan.valid[strip]
-            # Points at the scanner itself look nowhere in particular.
+            # Points at the scanner itself have no direction.
             towards = np.where(_squares(scan.points[strip])[..., None] > 0, -scan.points[strip], [0.0, 0.0, 1.0])
             normals = np.where(_squares(sums)[..., None] > 0, sums, towards)[valid]
             yield (normals / np.sqrt(_squares(normals))[:, None]).astype(np.float32)

@@ -1,16 +1,16 @@
-"""What the numbers of a file count, told by the numbers themselves."""
+"""Finds the unit of a file's numbers from the numbers themselves."""
 
 import numpy as np
 
 MILLIMETRE = 0.001
 _CAMERA_REACH = 60.0
-"""No depth camera sees that far, in meters; what it measures in millimeters is always more."""
+"""Meters beyond which no depth camera sees; its measurements in millimeters are always larger numbers."""
 
 _STEEP = -0.64
 """Sine of an angle below which a standing scanner sees the floor that it stands on."""
 
 _HIGHEST = 150.0
-"""Meters that a scanner stands above what is straight below it, at most."""
+"""Greatest height of a scanner above what is straight below it, in meters."""
 
 _FEWEST = 50
 
@@ -26,7 +26,7 @@ def scale_of_pose(pose):
     determinant = np.linalg.det(matrix)
     if not determinant > 0:
         return 1.0
-    # The digits beyond are those of the arithmetic.
+    # Further digits are rounding errors.
     scale = float(f"{np.cbrt(determinant):.9g}")
     turn = matrix / scale
     return scale if np.abs(turn @ turn.T - np.eye(3)).max() <= 1e-3 and abs(scale - 1) > 1e-3 else 1.0

@@ -12,7 +12,7 @@ from ..messages import Message
 from .seeds_file import read_columns, write_seeds
 from .sources import FOUND, GUESSED, SOURCES
 
-# From so many seeds on pixels without a return on it is asked whether they belong to the scan.
+# With this many seeds on pixels without a return, a warning asks whether they belong to the scan.
 _MANY_MOVED = 5
 
 
@@ -112,7 +112,7 @@ class Seeds:
 
     @property
     def of_a_person(self) -> np.ndarray:
-        """(S,) bool: those that a person picked or locked; no photo tells more than they do."""
+        """(S,) bool: those that a person picked or locked; they take precedence over photos."""
         return self.locked | np.array([reason not in FOUND for reason in self.reason], bool)
 
     def chosen(self, indices) -> "Seeds":
@@ -241,7 +241,7 @@ def nearest_valid(valid, row, col, *, wrap=False):
     while True:
         rows = np.arange(max(0, row - radius), min(height, row + radius + 1))
         if wrap:
-            # Each column once, the way around that is shorter.
+            # Each column once, by the shorter way around.
             cols = np.arange(col - min(radius, (width - 1) // 2), col + min(radius, width // 2) + 1)
         else:
             cols = np.arange(max(0, col - radius), min(width, col + radius + 1))

@@ -170,7 +170,7 @@ class _SeedsFile:
         }
 
     def document(self):
-        """The whole document, of the right form."""
+        """The document, with its outer form checked."""
         document = read_json(self._path, Message("a JSON file of seeds"), error=SeedsError, most=_LARGEST_FILE)
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise SeedsError('{file}: expected a JSON object with "format": "{format}"', file=self._path, format=FORMAT)

@@ -1,4 +1,4 @@
-"""By which number a Cryptomatte layer of a render calls a material."""
+"""The number that stands for a material in a Cryptomatte layer of a render."""
 
 import struct
 

@@ -1,4 +1,4 @@
-"""A photographer's camera that does not exist: where a point falls in its picture, and how the picture comes out."""
+"""A virtual photographer's camera: where a point falls in its picture, and how the picture is exposed."""
 
 from dataclasses import dataclass, field, replace
 

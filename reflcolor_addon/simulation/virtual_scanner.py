@@ -1,4 +1,4 @@
-"""A terrestrial laser scanner that does not exist: what it would measure where rays are known to hit.
+"""A virtual terrestrial laser scanner: what it would measure where its rays hit.
 
 The geometry comes from a ``cast`` function (closed forms in tests, a renderer in Blender); here is the grid of ray
 directions and the sensor: signal strength, noise, lost returns, mixed pixels and quantization.
@@ -21,7 +21,7 @@ from ..srgb import linear_to_srgb8, srgb8_to_linear
 
 # Where in the beam its energy is sampled, in beam widths from the center (right, up), and the share of the energy.
 _BEAM = ((0.0, 0.0, 0.4), (-0.35, -0.35, 0.15), (0.35, -0.35, 0.15), (-0.35, 0.35, 0.15), (0.35, 0.35, 0.15))
-# Near a wall of the housing the 1/r of the signal law would grow without end.
+# Very close to the scanner the 1/r of the signal law would grow without bound.
 _LEAST_RANGE_M = 0.1
 _MOST_NOISE_GROWTH = 4.0
 _MAX_PIXELS = 2**26

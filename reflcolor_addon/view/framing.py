@@ -4,22 +4,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# From this much of the horizon on, a scan is looked at from outside.
+# A scan that covers at least this many degrees of the horizon is viewed from outside.
 _WIDE_DEG = 200.0
 _OUTSIDE_FOV_DEG = 45.0
 _OUTSIDE_RISE_DEG = 40.0
-# The most that a scan may take of a picture, across or down, without looking distorted.
+# Largest field of view of a picture, in degrees, without visible distortion.
 _WIDEST_DEG = 95.0
-# What is wider is seen from behind the scanner, by this much of the near ranges or more.
+# Wider scans are viewed from behind the scanner, by at least this share of the near ranges.
 _BACK, _BACKING_OFF = 0.1, 1.25
 _STEPS = 40
 _CENTERINGS = 8
 _MARGIN = 1.05
 # Percent of the points on each side that may lie outside the picture: stray returns must not shrink all the others.
 _STRAY = 0.05
-# Enough points to tell that from; of more, these are drawn.
+# Enough points for these estimates; a random sample of this size is taken of more.
 _SAMPLE = 20_000
-# In distances of the target: what is nearer or farther is not shown.
+# Clipping distances, as multiples of the distance to the target.
 _CLIP = (1e-3, 1e3)
 # Meters; a scan of one point has no size to go by.
 _CLOSEST = 0.1
@@ -29,7 +29,7 @@ _SHAPES = 0.5, 2.4
 _PICTURE_PIXELS = 1_300_000
 # Blender's 3D View has a sensor of twice the usual width.
 _REGION_SENSOR_MM = 72.0
-# Of what is free of a 3D View that looks through a camera, what the picture takes: headers lie over its edges.
+# Share of the free part of a 3D View that the camera's picture takes: headers cover its edges.
 _CAMERA_SHARE = 0.88
 
 
@@ -243,7 +243,7 @@ def _across(forward):
 
 
 def _sample(points):
-    """Of very many points some, which are spread alike."""
+    """A sample of very many points."""
     if len(points) <= _SAMPLE:
         return points
     return points[np.random.default_rng(0).integers(0, len(points), _SAMPLE)]

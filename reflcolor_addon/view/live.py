@@ -1,4 +1,4 @@
-"""Colors while seeds are being picked: a coarse result at once, then the full one; only the latest wish counts."""
+"""Colors while seeds are being picked: a coarse result at once, then the full one; only the latest request counts."""
 
 import threading
 from dataclasses import dataclass, replace
@@ -109,7 +109,7 @@ class LiveColorizer:
                 self._colorize(scan, number, *wanted)
             except Cancelled:
                 continue
-            except Exception as error:  # bad input, or a defect: the window tells it apart
+            except Exception as error:  # bad input, or a defect: the window distinguishes them
                 self._deliver(LiveResult(number, error=error))
 
     def _colorize(self, scan, number, seeds, settings, observed):
@@ -156,7 +156,7 @@ class _LiveScan:
         fewer, _ = replace(seeds, rows=rows, cols=cols).placed_on(self._coarse.scan)
         spread, _ = self._coarse.spread(fewer, settings, cancelled=cancelled)
         colored = self._coarse.joined(spread, fewer, None if observed is None else observed.thinned(self._stride))
-        # Enlarged together with where they are, so that what is next to no value takes nothing of it.
+        # Enlarged together with their mask, so that pixels beside missing values are not mixed with them.
         reached = colored.reached[..., None].astype(np.float32)
         values, share = (self._enlarged(each) for each in (colored.values * reached, reached))
         values /= np.maximum(share, np.finfo(np.float32).tiny)[..., None]
@@ -164,7 +164,7 @@ class _LiveScan:
         rgb = colorspaces.merge(gray, values[..., CHROMINANCE], settings.color_space)
         rgb[~self._scan.valid] = 0
         if settings.light == 1 and colored.weight.any():
-            # What photos saw is there at the full size already.
+            # Observed colors exist at the full size already.
             weight = self._enlarged(colored.weight)[..., None] * observed.seen[..., None]
             rgb = np.rint(rgb + weight * (observed.rgb.astype(np.float32) - rgb)).astype(np.uint8)
         return rgb

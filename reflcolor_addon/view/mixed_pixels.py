@@ -28,7 +28,7 @@ def mixed_pixels(scan, max_incidence_deg=MAX_INCIDENCE_DEG):
     (H, W) bool
     """
     height, width = scan.shape
-    # Along a row of a plane's picture, the inverse of the range is a straight line; two beyond each edge are unknown.
+    # Along a row, the inverse range of a plane is a straight line; two pixels beyond each edge are unknown.
     inverse = np.full((height + 4, width + 4), np.nan)
     with np.errstate(divide="ignore"):
         inverse[2:-2, 2:-2] = np.where(scan.valid, 1 / scan.range, np.nan)

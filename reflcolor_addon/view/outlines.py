@@ -67,7 +67,7 @@ def _crossing(wide, stride, center, down, right):
         there += weight * (wide[center + (row + down) * stride + col + right] == own)
         whole += weight
     here, there = here / whole - 0.5, there / whole - 0.5
-    # A thing of one pixel's width is half around nowhere; it is as wide as a pixel.
+    # An object one pixel wide has no such place; it is drawn as wide as a pixel.
     crossing = np.where(here > 0, here / np.maximum(here - there, 1e-9), 0.5)
     return np.clip(np.where(there > 0, 0.5, crossing), _NEAREST, _FARTHEST)
 

@@ -1,4 +1,5 @@
-"""What a pointer means: places in an image as an editor shows it, what lies near, inside and along its path."""
+"""The geometry of the pointer: places in an image as an editor shows it, points near it, inside an outline, along its
+path."""
 
 from dataclasses import dataclass
 

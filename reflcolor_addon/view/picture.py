@@ -1,4 +1,4 @@
-"""What a picture of scans is to look like."""
+"""How pictures of scans look."""
 
 from dataclasses import dataclass
 

@@ -11,9 +11,9 @@ from .mixed_pixels import mixed_pixels
 from .outlines import CORNERS, DOWN, RIGHT, STEPS, outline_shares, square_polygons
 from .small_holes import nearest_kept, small_holes, spread_into
 
-# Pixels around one whose steps from pixel to pixel are averaged, to know the directions of pixels without a return.
+# Size of the window in which steps from pixel to pixel are averaged, for the directions of pixels without a return.
 _STEP_WINDOW = 31
-# An outline goes on at its surface's slope, but by no more than this share of the inverse range.
+# An outline continues its surface's slope, but by no more than this share of the inverse range.
 _LARGEST_SLOPE = 0.05
 
 
@@ -106,7 +106,7 @@ class _Grid:
         self.wrap, self.kept = scan.full_turn, kept
         self.holes = small_holes(kept)
         self.there = kept | self.holes
-        # A scan without a single pixel is not shown at all.
+        # A scan without any pixel is not shown.
         self.nearest = nearest_kept(kept) if kept.any() else np.zeros(scan.shape, np.int64)
         joined = self._measured_joints(scan.points, max_incidence_deg)
         self.surface = self._surfaces(joined)
@@ -236,7 +236,7 @@ class _Polygons:
         steps = np.array([*STEPS, (0, 0)])[self._ways] * self._shares[:, None]
         row = (self._pixel // grid.width + steps[:, 0])[self._vertex]
         col = (self._pixel % grid.width + steps[:, 1])[self._vertex]
-        # Beyond the seam of a full turn the picture goes on.
+        # Beyond the seam of a full turn the picture continues.
         col = np.where(col < self._cols[self._squares] - 1, col + grid.width, col)
         return np.stack([(col + 0.5) / grid.width, 1 - (row + 0.5) / grid.height], axis=1).astype(np.float32)
 

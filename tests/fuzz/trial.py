@@ -37,7 +37,7 @@ class Outcome:
 
 
 class Trials:
-    """Makes and reads changed files, each told by its kind and number alone.
+    """Makes and reads changed files, each determined by its kind and number alone.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Looks at a manifest before the work begins: everything that can be wrong with it is found out at once."""
+"""Checks a manifest before the work begins, so that all of its errors are reported at once."""
 
 from ...errors import ReflcolorError, UsageError
 from ...files.gate import opened
@@ -47,7 +47,7 @@ def _check_scan(path):
 
 
 def _check_outputs(manifest, refuse):
-    """No result may take the place of an input, and the folder must be one that can be written to."""
+    """No result may overwrite an input, and the folder must be writable."""
     root, read = manifest.folder.root, set()
     for item in manifest.items:
         read.update(path.resolve() for path in (*item.plan.scans, *item.plan.photos))

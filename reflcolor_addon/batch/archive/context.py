@@ -37,7 +37,7 @@ class Context:
 
     @property
     def folder(self) -> BatchFolder:
-        """Where all goes."""
+        """Where everything is written."""
         return self.manifest.folder
 
     def hashes(self, paths):
@@ -51,7 +51,7 @@ class Context:
         return found
 
     def work(self, tasks: list[Task], finished: Callable, what: str):
-        """Do tasks, and show how far they are.
+        """Run tasks and show their progress.
 
         Parameters
         ----------
@@ -73,7 +73,7 @@ class Context:
             nonlocal done
             waiting = len(tasks)
             stop = finished(task, outcome)
-            # What is to be tried again was put back.
+            # Tasks to be tried again were put back into the queue.
             if len(tasks) == waiting:
                 left.add(task.cost)
                 done += 1

@@ -1,20 +1,21 @@
-"""What a scan will cost, told by the size of its file before anything is read."""
+"""Estimates the cost of a scan from the size of its file, before anything is read."""
 
 from pathlib import Path
 
 from ..paths import scan_files
 
-# Bytes of a file for each pixel of its grid; a file of fewer returns holds fewer pixels that cost anything.
+# Bytes of a file for each pixel of its grid. Pixels without a return cost nothing, and files with fewer returns are
+# smaller.
 _BYTES_PER_PIXEL = {".ptx": 40.0, ".e57": 14.0}
 _OTHERS = 4.0
-# Of a worker: what it takes before there is a scan, and for each pixel and each photo's pixel, bytes.
+# Bytes that a worker needs before there is a scan, for each pixel of the scan, and for each pixel of a photo.
 _MEMORY, _MEMORY_PER_PIXEL = 350 << 20, 450
-# Seconds of one processor for each scan, for each million of its pixels, and for each photo that it is matched with.
+# Seconds of one processor for each scan, each million of its pixels, and each photo that it is matched with.
 SECONDS, SECONDS_PER_MEGAPIXEL, SECONDS_PER_PAIR, SECONDS_PER_LOOK = 1.5, 8.0, 6.0, 0.25
 
 
 def pixels_of(paths):
-    """Return about how many pixels the scans in some files have, as far as their sizes tell."""
+    """Return about how many pixels the scans in some files have, estimated from their sizes."""
     return sum(_pixels(path) for path in paths)
 
 

@@ -1,4 +1,4 @@
-"""What was done before: a record for each item and stage, and whether it still holds."""
+"""Records of finished work: one for each item and stage, and whether it is still valid."""
 
 from pathlib import Path
 
@@ -21,7 +21,7 @@ class Done:
         self._folder, self._fingerprints = folder, fingerprints
 
     def key(self, stage, plan, hashes):
-        """Return what tells whether a piece of work is the same: its inputs' hashes, its settings, the program.
+        """Return the key that identifies a piece of work: hashes of its inputs, its settings, and of the program.
 
         Parameters
         ----------
@@ -33,13 +33,13 @@ class Done:
         return digest_of([program_digest(), stage, as_document(plan), sorted(hashes.items())])
 
     def record(self, name, stage, key, outcome):
-        """Keep that something is done: last of all, when its outputs are there."""
+        """Record that something is done. It is called last, when the outputs exist."""
         outputs = {path: self._output(path) for path in outcome["written"]}
         kept = {name: outcome.get(name) for name in ("warnings", "left_out", "photos", "seconds")}
         self._folder.remember(KIND, f"{name} {stage}", {"key": key, "outputs": outputs} | kept)
 
     def recall(self, name, stage, key=None):
-        """Return the record of what is done and whole, of this key if one is given; else None."""
+        """Return the record of finished, complete work, with this key if one is given; else None."""
         record = self._folder.recall(KIND, f"{name} {stage}")
         if record is None or (key is not None and record.get("key") != key):
             return None
@@ -49,14 +49,14 @@ class Done:
         return record
 
     def amend(self, name, stage, path):
-        """Take over into a record that one of its outputs was written anew, by a later stage."""
+        """Update a record after a later stage has rewritten one of its outputs."""
         record = self._folder.recall(KIND, f"{name} {stage}")
         if record is not None and str(path) in record["outputs"]:
             record["outputs"][str(path)] = self._output(path)
             self._folder.remember(KIND, f"{name} {stage}", record)
 
     def forget(self, name, stage):
-        """Drop a record, before what it tells of is written again."""
+        """Delete a record before its outputs are written again."""
         self._folder.state(KIND, f"{name} {stage}.json").unlink(missing_ok=True)
 
     def _output(self, path):
@@ -66,7 +66,7 @@ class Done:
         path = Path(path)
         try:
             size, mtime = _state(path)
-            # A copied folder has other times; then its bytes tell.
+            # The files of a copied folder have other times; then their bytes are compared.
             return size == told[0] and (mtime == told[1] or self._fingerprints.of(path) == told[2])
         except (OSError, LookupError, TypeError):
             return False

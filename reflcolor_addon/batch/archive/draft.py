@@ -78,7 +78,7 @@ def draft(folder, path):
         return _quoted(Path(os.path.relpath(file, seen_from)).as_posix())
 
     def patterns(chosen):
-        """As few patterns as cover just the chosen files; a name by itself where it is the only one."""
+        """The fewest patterns that match the chosen files and no others; the plain name for a single file."""
         folders = Counter((file.parent, _suffix(file)) for file in chosen)
         lines = []
         for (parent, suffix), count in folders.items():
@@ -101,7 +101,7 @@ def draft(folder, path):
 
 
 def _files(folder):
-    """All files below a folder, but for hidden ones and what batches have made."""
+    """All files below a folder, except hidden ones and those that batches have written."""
     for root, folders, names in os.walk(folder):
         here = Path(root)
         folders[:] = sorted(name for name in folders if not name.startswith(".") and not (here / name / STATE).is_dir())

@@ -1,4 +1,4 @@
-"""How long a batch will take, and how much memory, told before it begins."""
+"""Estimates how long a batch will take, and how much memory, before it begins."""
 
 from ...files.memory import readable
 from ...messages import Message

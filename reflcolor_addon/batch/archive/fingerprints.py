@@ -57,7 +57,7 @@ class Fingerprints:
 
 @cache
 def program_digest():
-    """Return a hash of what results depend on beside their inputs: our code, the kernel, versions of libraries."""
+    """Return a hash of everything else that results depend on: our code, the kernel, versions of libraries."""
     core = Path(__file__).resolve().parents[2]
     kernel = library_file()
     found = [versions(), None if kernel is None else hashlib.sha256(kernel.read_bytes()).hexdigest()]
@@ -69,5 +69,5 @@ def program_digest():
 
 
 def digest_of(document):
-    """Return the hash of what JSON can hold."""
+    """Return the hash of a value that can be written as JSON."""
     return hashlib.sha256(json.dumps(document, sort_keys=True, allow_nan=False).encode()).hexdigest()

@@ -36,14 +36,14 @@ class BatchFolder:
         return self.root / f"{label} render.png"
 
     def records(self, label):
-        """The outputs that tell of a scan: its preview and its report, which is the last of all."""
+        """The outputs that describe a scan: its preview and its report, which is written last."""
         reports = self.root / REPORTS
         return Output("preview", reports / f"{label}.jpg", PREVIEW), Output(
             REPORT_OPTION, reports / f"{label}.json", REPORT
         )
 
     def log(self, name):
-        """Where everything goes that is said while an item is worked on."""
+        """The log of everything printed while an item is processed."""
         return self.root / "logs" / f"{name}.log"
 
     @property
@@ -52,7 +52,7 @@ class BatchFolder:
         return self.root / "pairs.csv"
 
     def state(self, *parts):
-        """A path among what the batch remembers."""
+        """A path in the folder where the batch keeps its records."""
         return self.root.joinpath(STATE, *parts)
 
     def make(self):
@@ -80,7 +80,7 @@ class BatchFolder:
         except OSError as error:
             raise OutputError("{file}: cannot be written ({reason})", file=path, reason=error.strerror) from error
         with file:
-            # Where a file system knows no locks, nobody is kept out.
+            # On file systems without locks, other batches cannot be kept out.
             yield try_lock(file) is not False
 
     def remember(self, kind, name, document):

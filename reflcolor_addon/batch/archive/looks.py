@@ -1,4 +1,4 @@
-"""First looks: of every scan at every photo, to find out which pairs are worth the work of matching."""
+"""A quick comparison of every scan with every photo, to find the pairs that are worth matching."""
 
 from pathlib import Path
 
@@ -13,8 +13,8 @@ from .folder import BatchFolder
 
 KIND = "looks"
 _SKETCH_SIDE = 640
-# Of a batch's photos, how many scans each is matched with at the most, and how much less than its best one they may
-# look like it.
+# How many scans each photo of a batch is matched with at most, and how much lower their scores may be than the best
+# one's.
 MOST_SCANS, LEAST_SHARE = 4, 0.4
 
 
@@ -73,7 +73,7 @@ def candidates(scores):
     dict of str to list of str
         For each item its photos, what looks best first.
     """
-    # A scan with much detail agrees better with everything: what counts is by how much a photo stands out.
+    # A scan with much detail gets higher scores with every photo; what counts is how much a photo stands out.
     usual = {name: _median(list(own.values())) for name, own in scores.items()}
     chosen = {name: [] for name in scores}
     for photo in dict.fromkeys(path for own in scores.values() for path in own):

@@ -1,6 +1,6 @@
 """The manifest of a batch: a TOML file that names scans, photos, seeds, settings and outputs.
 
-What is wrong with it is collected, so that all of it can be said at once, each with its line.
+Its errors are collected and reported together, each with its line.
 """
 
 import tomllib
@@ -139,7 +139,7 @@ class _Table:
         return self._values[key]
 
     def get(self, key, kind, default=None):
-        """A value of one type; the default where it is missing or of another one."""
+        """A value of one type; the default if it is missing or has another type."""
         value = self._values.get(key)
         if value is None:
             return default
@@ -233,7 +233,7 @@ class _Reader:
         """The files that a name or a pattern means."""
         folder = self._path.parent
         try:
-            # A name that is there is taken as it is: it may hold brackets.
+            # The name of an existing file is taken literally: it may contain brackets.
             if (folder / text).is_file():
                 return [folder / text]
             pattern = Path(text)

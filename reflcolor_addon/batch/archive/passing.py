@@ -1,4 +1,4 @@
-"""Which failures may pass, so that it makes sense to try again."""
+"""Which failures are temporary, so that a second try makes sense."""
 
 import errno
 

@@ -1,10 +1,10 @@
-"""How far a batch is, and how long it will still take."""
+"""The progress of a batch, and how long it will still take."""
 
 import time
 
 
 class TimeLeft:
-    """Tells what is left from what was done so far.
+    """Estimates the remaining time from the work done so far.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ class TimeLeft:
         return min((self._done + running) / self._whole, 1.0)
 
     def text(self, running=0.0):
-        """Return how long it will still take, in words; nothing as long as that cannot be told."""
+        """Return the remaining time in words; an empty text while it cannot be estimated."""
         share = self.share(running)
         if share < 0.01:
             return ""

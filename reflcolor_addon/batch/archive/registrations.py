@@ -1,4 +1,4 @@
-"""Remembers which photo shows which scan, and from where: no pair is worked on twice."""
+"""Stores which photo shows which scan, and from where, so that no pair is matched twice."""
 
 from ...matching.registration.stored import as_document, from_document
 from .fingerprints import digest_of, program_digest

@@ -1,4 +1,4 @@
-"""Works on a whole batch: looks at photos, colorizes, renders; what was done is not done again."""
+"""Runs a whole batch: compares photos, colorizes, renders. Finished work is not repeated."""
 
 from contextlib import ExitStack
 
@@ -59,7 +59,7 @@ def run_batch(manifest, options, known_pairs, session):
         )
         photos = {}
         if LOOK in options.stages or COLOR in options.stages:
-            # Which photos suit an item best can be told only beside all others.
+            # Which photos suit an item best is known only when all items have been compared.
             items = manifest.items if COLOR in options.stages else [state.item for state in states]
             photos = photos_of_items(context, [item for item in items if item.offered], known_pairs)
         if COLOR in options.stages:

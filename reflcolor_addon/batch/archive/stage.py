@@ -1,4 +1,4 @@
-"""One stage of a batch over its items: each is claimed, left out if it is done, worked on, and remembered."""
+"""One stage of a batch over its items: each is claimed, skipped if it is done, processed, and recorded."""
 
 import time
 from contextlib import ExitStack
@@ -70,7 +70,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
 
 
 def remember_item(context, state):
-    """Keep what became of an item, for the report of the whole batch."""
+    """Record the outcome of an item, for the report of the whole batch."""
     document = {"outcome": state.outcome, "error": state.error, "left_out": state.left_out}
     context.folder.remember(ITEMS, state.item.name, document)
 
@@ -91,7 +91,7 @@ def _bare(text):
 
 
 def _write_log(task, outcome):
-    """Add to an item's log what was said of it; a log that cannot be written is no reason to stop."""
+    """Append the messages about an item to its log; a log that cannot be written does not stop the batch."""
     lines = [*outcome.get("lines", []), *(f"warning: {line}" for line in outcome.get("warnings", []))]
     if not outcome["done"]:
         lines.append(f"error: {outcome['error']}")

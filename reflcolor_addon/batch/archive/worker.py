@@ -24,7 +24,7 @@ from .registrations import Registrations
 
 MARK = "\x1e"
 _TELL_EVERY_S = 0.2
-# What is being written when the parent is gone has so long to come to an end.
+# How long a file that is being written may take to be finished after the parent has ended.
 _ENDS_WITHIN_S = 10
 
 
@@ -140,7 +140,7 @@ _WORK = {"run": _Worker.run, "look": _Worker.look}
 
 
 def _peak_bytes():
-    """The most memory that this process had so far; None where the system does not tell."""
+    """The peak memory of this process; None where the system does not report it."""
     try:
         import resource
     except ImportError:

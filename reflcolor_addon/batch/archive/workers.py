@@ -18,7 +18,7 @@ from .worker import MARK
 
 _LOOK_EVERY_S = 0.1
 _ENDS_WITHIN_S = 15
-# Libraries have threads of their own; they are told how many before they are loaded.
+# Libraries start threads of their own; how many is set before they are loaded.
 _THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -100,7 +100,7 @@ class Workers:
             except subprocess.TimeoutExpired:
                 worker.process.kill()
                 worker.process.wait()
-            # What the process has started itself may hold its output open.
+            # A process started by the worker may keep its output open.
             worker.listener.join(1.0)
             if worker.log:
                 worker.log.close()
@@ -177,7 +177,7 @@ class Workers:
             self._give(self._idle(task.needs_blender), task)
 
     def _idle(self, in_blender):
-        # One whose input is closed is about to end; its end is noticed as that of any other.
+        # A worker whose input is closed is about to end, which is noticed like the end of any other.
         staying = [worker for worker in self._processes if not worker.process.stdin.closed]
         idle = [worker for worker in staying if worker.task is None]
         for worker in idle:
@@ -238,7 +238,7 @@ class Workers:
         self._send(worker, task.request | {"threads": self._threads})
 
     def _send(self, worker, document):
-        # Where the worker is gone, the end of its output tells.
+        # If the worker has ended, the end of its output shows that.
         with contextlib.suppress(OSError):
             worker.process.stdin.write(json.dumps(document) + "\n")
             worker.process.stdin.flush()

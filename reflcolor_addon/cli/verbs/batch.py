@@ -20,7 +20,7 @@ from ...threads import thread_count
 NAME = "batch"
 HELP = "color all scans of an archive, as a manifest says"
 _GIGABYTE = 1 << 30
-# Of the memory that is free, what a batch takes unless it is told.
+# Share of the free memory that a batch takes by default.
 _SHARE = 0.8
 
 

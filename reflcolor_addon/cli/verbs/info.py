@@ -58,7 +58,7 @@ def _photo_entry(photo):
 
 
 def _photo_lines(photos, path):
-    """What is inside of an E57 besides scans, and how to use it."""
+    """What else is inside an E57, and how to use it."""
     if not photos:
         return []
     count = "1 photo" if len(photos) == 1 else f"{len(photos)} photos"

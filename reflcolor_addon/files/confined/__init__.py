@@ -1,1 +1,1 @@
-"""Native code that reads files of strangers, in a process of its own with limits and without a way to the network."""
+"""Native code that reads untrusted files, in a separate process with limits and without network access."""

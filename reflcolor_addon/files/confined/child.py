@@ -18,7 +18,7 @@ _ENDS_WITHIN_S = 10
 
 
 class ChildFailed(Exception):
-    """A child process crashed, hung, ate too much, or answered what makes no sense.
+    """A child process crashed, hung, exceeded its limits, or gave an invalid answer.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class Child:
         return self
 
     def __exit__(self, *_):
-        # Its work is only to read: it can be ended at any moment.
+        # It only reads, so it can be ended at any moment.
         with contextlib.suppress(OSError):
             self._process.kill()
         with contextlib.suppress(OSError):
@@ -89,7 +89,7 @@ class Child:
 
     def ask(self, request):
         """Send a request."""
-        # Where the child is gone, its answer tells.
+        # If the child has ended, waiting for its answer shows that.
         with contextlib.suppress(OSError):
             self._process.stdin.write(json.dumps(request).encode() + b"\n")
             self._process.stdin.flush()

@@ -1,4 +1,5 @@
-"""What a child process does to itself before it touches a stranger's file; it imports nothing of the package.
+"""The restrictions that a child process puts on itself before it opens an untrusted file; it imports nothing of the
+package.
 
 Each step is taken where the system has it; `confine` returns the names of those that were.
 """
@@ -13,8 +14,8 @@ from pathlib import Path
 _KILLED_WITH_PARENT, _NO_NEW_PRIVILEGES, _FILTER_CALLS = 1, 38, 22
 _SIGKILL = 9
 _MOST_FILES = 64
-# Calls of Linux that a reader of one open file has no need of, by the machine: to talk to anyone, to start anything, to
-# change a file, to look into other processes.
+# System calls of Linux that a reader of one open file does not need, by machine: network, starting programs, changing
+# files, access to other processes.
 _CALLS = {
     "x86_64": (
         0xC000003E,
@@ -39,7 +40,7 @@ _FIRST_X32_CALL = 0x40000000
 
 
 def confine(*, memory, written, seconds):
-    """Take away what reading one open file into memory does not need; there is no way back.
+    """Give up everything that is not needed to read one open file into memory; this cannot be undone.
 
     Parameters
     ----------
@@ -93,7 +94,7 @@ def _end_with_parent():
 
 
 def _filter_calls():
-    """Linux: calls that are not needed fail with "permission denied", for this process and for ever (seccomp)."""
+    """Linux: system calls that are not needed fail with "permission denied" in this process from now on (seccomp)."""
     if not sys.platform.startswith("linux") or struct.calcsize("P") != 8:
         return False
     program = _program(platform.machine())
@@ -120,7 +121,7 @@ def _program(machine):
     if machine not in _CALLS:
         raise ValueError(machine)
     architecture, *refused, opening = _CALLS[machine]
-    # Of the kernel's description of a call: its number, the architecture, and the arguments from byte 16 on.
+    # Offsets in the kernel's description of a call: its number, the architecture, and the arguments from byte 16 on.
     lines = [(_LOAD, 0, 0, 4), (_EQUAL, 1, 0, architecture), (_RETURN, 0, 0, _KILL), (_LOAD, 0, 0, 0)]
     lines += [(_AT_LEAST, 0, 1, _FIRST_X32_CALL), (_RETURN, 0, 0, _REFUSE)]
     for number in sorted(number for group in refused for number in group):
@@ -134,7 +135,7 @@ def _program(machine):
 
 
 def _leave_network():
-    """macOS: no network for this process and for ever."""
+    """macOS: no network for this process from now on."""
     if sys.platform != "darwin":
         return False
     library = ctypes.CDLL("/usr/lib/libSystem.dylib")

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 _RECORDS = 1 << 16
-"""That are copied at a time."""
+"""Records that are copied at a time."""
 
 _PIECE = 1 << 20
 _COLORS = ("colorRed", "colorGreen", "colorBlue")
@@ -41,7 +41,7 @@ def main(lines, answer):
         number = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
     columns = memoryview(mmap.mmap(number, 0))
     library = library_at(request["library"], request["folders"])
-    # The last file that is opened for writing.
+    # This is the last file that is opened for writing.
     made = library.ImageFile(request["output"], "w")
     confine(**{key: request[key] for key in ("memory", "written", "seconds")})
     answer({"ready": True})
@@ -53,7 +53,7 @@ def main(lines, answer):
         answer({"done": 0})
     except MemoryError:
         answer({"error": "ErrorMemory"})
-    except Exception as error:  # whatever native code raises: its text is all that there is
+    except Exception as error:  # native code raises errors of any type: only their text is usable
         answer({"error": str(error)[:10_000]})
 
 

@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 _RECORDS = 1 << 16
-"""That are read at a time."""
+"""Records that are read at a time."""
 
 
 def main(lines, answer):
@@ -48,7 +48,7 @@ def main(lines, answer):
             answer({"done": done})
     except MemoryError:
         answer({"error": "ErrorMemory"})
-    except Exception as error:  # whatever native code raises: its text is all that there is
+    except Exception as error:  # native code raises errors of any type: only their text is usable
         answer({"error": str(error)[:10_000]})
 
 

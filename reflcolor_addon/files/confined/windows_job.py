@@ -1,4 +1,4 @@
-"""Limits on a child process of Windows, which cannot set them for itself: a job of its own."""
+"""Limits on a child process on Windows, set from outside by a job object."""
 
 import ctypes
 

@@ -73,7 +73,7 @@ def read_scans(
         with opened(path, _EXPECTED, error=ScanError) as file:
             kind = _kind_of(path, file.read(_START))
             file.seek(0)
-            # Numbers of strangers overflow; what comes of it is judged by limits, which are told.
+            # Numbers in untrusted files may overflow; the results are checked against limits, and reported.
             with np.errstate(over="ignore", invalid="ignore", divide="ignore", under="ignore"):
                 return kind.read(file, path, options=options, outside=outside, progress=progress, cancelled=cancelled)
     except MemoryError:

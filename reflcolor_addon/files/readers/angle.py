@@ -55,7 +55,7 @@ def gridded_by_angle(header, points, valid, reflectance, color, named, options, 
         raise UnusableScan("{file}: scan '{scan}': {reason}", reason=error.message, **header.place) from None
     distance = np.einsum("ij,ij->i", away, away)
     pixel = grid.rows.astype(np.int64) * grid.shape[1] + grid.cols
-    # Of several points in one direction the nearest hides the others.
+    # The nearest of several points in one direction hides the others.
     order = np.lexsort((distance, pixel))
     first = np.concatenate([[True], np.diff(pixel[order]) != 0])
     taken, pixels = np.flatnonzero(usable)[order[first]], pixel[order[first]]

@@ -10,14 +10,14 @@ from ..memory import require_memory
 from .grid import BYTES_PER_PIXEL, UnusableScan
 
 _CELLS_PER_POINT = 1000
-# How many times what the points span the bounds of a file may be: a little scene under much sky, but not the range of
-# the numbers that the file could have held.
+# How many times larger than the extent of the points the bounds stated in a file may be: a small scene under a large
+# sky, but not the range of the file's number format.
 _MOST_MARGIN = 16
 """A grid emptier than this is no scan: its row or column numbers are wrong."""
 
 _LARGEST_INDEX = 2**40
 _ONE_DIRECTION_DEG = 2.0
-"""So far apart, at most, are the returns of one pulse, with the scanner a little away from where the file has it."""
+"""Largest angle between the returns of one pulse, with the scanner slightly away from its stated position."""
 
 _TAKEN = {
     "first": "{pixels:,} pixels have several returns; the first was taken, {count:,} others were left out",
@@ -49,7 +49,8 @@ class IndexGrid:
     def __init__(self, rows, columns, limits, header):
         self._place = header.place
         most = _CELLS_PER_POINT * (len(rows) + 1000)
-        # The file's own bounds tell of margins without a point; not where they claim far more than the points fill.
+        # The file's own bounds show margins without points; they are ignored where they are far larger than the points'
+        # extent.
         for stated in (limits, {field: (None, None) for field in limits}):
             first_row, height = self._extent(rows, "rowIndex", stated)
             first_column, width = self._extent(columns, "columnIndex", stated)

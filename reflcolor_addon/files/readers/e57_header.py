@@ -15,11 +15,11 @@ INDEX = ("rowIndex", "columnIndex")
 CARTESIAN_STATE, SPHERICAL_STATE = "cartesianInvalidState", "sphericalInvalidState"
 _FLAGS = ("isIntensityInvalid", "isColorInvalid", CARTESIAN_STATE, SPHERICAL_STATE, "returnIndex")
 _STRENGTHS = ("reflectance", "intensity", "amplitude")
-"""What makers call the strength of a return in fields of their own, the best first."""
+"""Names of manufacturers' own fields for the strength of a return, the best first."""
 
 GROUPS = ("pointGroupingSchemes", "groupingByLine", "groups")
 GROUP = ("idElementValue", "startPointIndex", "pointCount")
-# More returns for one pixel than any scanner tells apart.
+# More returns for one pixel than any scanner distinguishes.
 _MOST_RETURNS = 64
 _BITS_OF_A_TEXT = 8
 
@@ -133,7 +133,7 @@ def _groups(node, file_size):
 
 
 def _own_strength(present):
-    """A maker's own field of a return's strength, such as ``rlms:reflectance``."""
+    """A manufacturer's own field for the strength of a return, such as ``rlms:reflectance``."""
     own = {name.partition(":")[2].lower(): name for name in present if ":" in name}
     return next((own[name] for name in _STRENGTHS if name in own), None)
 

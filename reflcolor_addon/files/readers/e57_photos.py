@@ -234,7 +234,7 @@ def _focal_px(inside, shape):
         return None
     width, height = inside.size or (shape[1], shape[0])
     scale = shape[1] / width
-    # An image of another shape was cut or turned: what is stated is not about it.
+    # An image of another shape was cropped or rotated: the stated values do not apply to it.
     return focal / pixel * scale if abs(shape[0] / (height * scale) - 1) < 0.01 else None
 
 

@@ -41,7 +41,7 @@ def stored_grids(columns, header, options):
     def warn(template, **values):
         warnings.append(of_scan(header.name, template, **values))
 
-    # Whatever is stored, also what is no number: `finish_grid` sorts it out.
+    # Values are taken as stored, NaN included: `finish_grid` sorts them out.
     with np.errstate(all="ignore"):
         xyz, valid = _coordinates(columns, warn)
         reflectance, invalid = _reflectance(columns, header, valid, warn)

@@ -1,7 +1,7 @@
 """The XML section of an E57 file, read and checked here before native code sees the file (ASTM E2807, section 8).
 
-What that code would fetch, expand or trip over is refused: document types, entities, locations of schemas, references
-of any kind, elements that are no nodes of E57, and nodes that lack what the standard demands of them.
+Anything that code would fetch, expand or crash on is refused: document types, entities, locations of schemas,
+references of any kind, elements that are not nodes of E57, and nodes that lack what the standard requires.
 """
 
 from dataclasses import dataclass, field
@@ -224,7 +224,7 @@ class _Parser:
         if parent.kind != "Vector" and node.name in self._names[-1]:
             self._refuse("{parent} holds {node} twice", parent=parent.name, node=node.name)
         self._names[-1].add(node.name)
-        # Vectors of equal children are compared by native code, which trips over points there.
+        # Native code compares vectors of equal children, and crashes on points there.
         if node.kind == "CompressedVector" and any(
             above.kind == "Vector" and above.attributes.get("allowHeterogeneousChildren") != "1" for above in self._open
         ):

@@ -58,4 +58,4 @@ REFUSED = {
     ".laz": _POINTS_ALONE,
     ".cpe": "Callidus: open it in 3D-Extractor and export it as PTX or PTS",
 }
-"""What is not read, and the way out for each maker, by suffix."""
+"""Formats that are not supported, with the way to export from each maker's program, by suffix."""

@@ -14,10 +14,10 @@ from .reflectance import told_apart
 from .settle import NO_GRID, NoGrid, Settled
 
 BYTES_PER_PIXEL = 120
-"""What reading takes at its worst moment: the stored arrays, their upright copies and a mask or two."""
+"""Peak memory of reading: the stored arrays, their upright copies and one or two masks."""
 
 _MOST_TOLD = 5
-"""So many of the scans that are left out are told one by one."""
+"""This many of the scans that are left out are listed one by one."""
 
 
 class UnusableScan(ScanError):
@@ -84,11 +84,11 @@ def finish_grid(
     def warn(template, **values):
         warnings.append(of_scan(name, template, **values))
 
-    # What is not a number stays none.
+    # NaN stays NaN.
     largest = reduce(np.maximum, (np.abs(points[..., axis]) for axis in range(3)))
     measured = valid & (largest != 0)
     reflectance, color = told_apart(reflectance, color, measured, warn)
-    # The square of a smaller coordinate is no number any more, so that its range would be none.
+    # The square of a smaller coordinate would underflow, and its range would be 0.
     usable = measured & (largest < FARTHEST_M) & (largest > NEAREST_M) & (np.abs(reflectance) < STRONGEST)
     if lost := np.count_nonzero(measured) - np.count_nonzero(usable):
         warn(
@@ -147,6 +147,6 @@ def with_problems(finished, problems, count, source):
 
 
 def _without_file(message):
-    """What a message says behind the name of the file."""
+    """Return a message without the name of the file in front."""
     template = message.template.removeprefix("{file}: ")
     return Message(template, **message.values) if template != message.template else message

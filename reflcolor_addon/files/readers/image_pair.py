@@ -22,7 +22,7 @@ from .settle import scaled_by_pose
 _FULL = 65535
 _GAP, _NEAR = 655, 100
 _NOTHING_HIT_M = 1e6
-"""Renderers write 1e10, or the largest number there is, where a ray meets nothing."""
+"""Renderers write 1e10, or the largest float, where a ray hits nothing."""
 
 
 def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -150,7 +150,7 @@ def full_code(values, valid):
 
 
 class _Images:
-    """Opens images that a description names; what is wrong with one is told under the description's name and key."""
+    """Opens images that a description names; errors are reported with the description's name and key."""
 
     def __init__(self, path, outside, cancelled):
         self._path, self._outside, self._cancelled = path, outside, cancelled

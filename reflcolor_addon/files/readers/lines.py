@@ -45,11 +45,11 @@ def _from_index(index):
     steps = np.diff(index)
     same = np.count_nonzero(steps == 0)
     if same > len(steps) / 2:
-        # It numbers the lines.
+        # The index numbers the lines.
         starts = np.concatenate([[0], np.flatnonzero(steps != 0) + 1])
         place = np.arange(len(index)) - np.repeat(starts, np.diff(np.append(starts, len(index))))
         return index, place.astype(np.float64)
-    # It is the place in the line: where it jumps back, the next line begins.
+    # The index is the place in the line: where it jumps back, the next line begins.
     forward = np.median(steps) > 0
     breaks = steps <= 0 if forward else steps >= 0
     other = np.concatenate([[0], np.cumsum(breaks)]).astype(np.float64)

@@ -28,7 +28,7 @@ _DAMAGED = (
     *(ValueError, KeyError, TypeError, EOFError, NotImplementedError),
     *(SyntaxError, tokenize.TokenError, struct.error, zlib.error, zipfile.BadZipFile),
 )
-"""What NumPy and zipfile raise where a file is not whole; a disk that fails is an OSError, and the gate's to say."""
+"""Errors of NumPy and zipfile for incomplete files; a failing disk is an OSError, which the gate reports."""
 _ENCRYPTED = 1
 
 
@@ -167,7 +167,7 @@ def _arrays(file, path):
     except ScanError:
         raise
     except _DAMAGED as error:
-        # What they say is about Python, and quotes the file at length.
+        # Their texts are about Python, and quote the file at length.
         raise ScanError(
             "{file}: it is damaged or cut short, or holds something other than arrays of numbers", file=path.name
         ) from error

@@ -1,11 +1,11 @@
-"""How a scan file is to be read, where a person knows better than the file tells."""
+"""How to read a scan file, where the user knows better than the file."""
 
 from dataclasses import asdict, dataclass, fields
 
 from ...errors import UsageError
 
 UNITS = {"m": 1.0, "mm": 0.001, "cm": 0.01, "ft": 0.3048, "in": 0.0254}
-"""Meters in each."""
+"""Meters per unit."""
 
 AUTO = "auto"
 TURNS = (0, 90, 180, 270)

@@ -1,7 +1,7 @@
-"""Two or three images that a person picked together: which is which, how the sensor looked, and what comes of it.
+"""Describes two or three images picked together: which is which, the sensor model, and the resulting scene.
 
-What the person does not say is guessed from the shape of the images, their bits and their values. A guess is a start:
-the dialog shows what size the scene would have, and says what makes no sense.
+Anything not specified is guessed from the shape of the images, their bits and their values. The dialog shows the size
+that the scene would have, and warns about implausible values.
 """
 
 import math
@@ -208,7 +208,7 @@ def _guessed_model(shape):
     if width < _PANORAMA * height:
         focal = _FOCAL * width
         return {"type": "pinhole", "fx": focal, "fy": focal, "cx": (width - 1) / 2, "cy": (height - 1) / 2}
-    # Of a full turn with pixels as high as wide.
+    # For a full turn with square pixels.
     half = 90.0 if width < _SPHERE * height else min(90.0, 180.0 * height / width)
     return {"type": "spherical", "azimuth_deg": (-180.0, 180.0), "elevation_deg": (-half, half)}
 
@@ -217,7 +217,7 @@ def _guessed_scale(values, there):
     """Meters for one unit: floating point holds meters, unless they are thousands; whole numbers millimeters."""
     seen = values[there]
     if values.dtype == np.uint8:
-        # Eight bits hold no millimeters; the farthest is taken to be across a large room.
+        # Eight bits cannot hold millimeters; the largest value is assumed to be the far side of a large room.
         return _FULL_SCALE_M / 255
     if values.dtype.kind == "f":
         return _MILLIMETERS if seen.size and np.median(seen) > _FARTHEST_M / 10 else 1.0

@@ -43,7 +43,7 @@ def faces(rgb, step_across, step_down):
             inside &= (x > -0.5) & (x < width - 0.5)
         if inside.mean() < _SEEN:
             continue
-        # Beyond the left and right edge of a whole turn the image goes on at the other one; elsewhere it ends.
+        # At the left and right edges a full turn continues at the other edge; elsewhere the image ends.
         x = x % width if whole_turn else x
         padded = cv2.copyMakeBorder(rgb, 0, 0, 1, 1, cv2.BORDER_WRAP if whole_turn else cv2.BORDER_REPLICATE)
         maps = (x + 1).astype(np.float32), y.astype(np.float32)

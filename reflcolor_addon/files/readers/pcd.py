@@ -148,7 +148,7 @@ def _lzf(packed, size, path, progress, cancelled):
                 if back < 0 or len(out) + length > size:
                     raise IndexError
                 piece = out[back : back + length]
-                # A repetition may reach into itself.
+                # A repetition may overlap itself.
                 while len(piece) < length:
                     piece += piece[: length - len(piece)]
                 out += piece
@@ -170,7 +170,7 @@ def _unpack_colors(columns):
     if packed is None or "red" in columns:
         return
     if packed.dtype.kind == "f":
-        # Text holds the number that the bits make as a float, or their whole number.
+        # Text holds the bits read as a float, or as a whole number.
         whole = np.nan_to_num(packed)
         bits = packed.astype("<f4").view("<u4") if (np.abs(whole) < 1).all() else whole.astype(np.int64)
     else:

@@ -1,4 +1,4 @@
-"""Whether a pose that a file gives can be believed, and what to do when not."""
+"""Whether a pose in a file is plausible, and what replaces it when it is not."""
 
 import math
 
@@ -30,7 +30,7 @@ def rigid(rotation, translation):
 
 
 def ptx_pose(position, axes, matrix, scan):
-    """The pose of a PTX header, which says it twice.
+    """The pose of a PTX header, which states it twice.
 
     Parameters
     ----------
@@ -66,9 +66,9 @@ def ptx_pose(position, axes, matrix, scan):
         )
         warning = of_scan(scan, "{fault}; {instead}", fault=fault, instead=instead)
         return np.eye(4) if stated is None else stated, [warning]
-    # The digits that are printed for 0 0 0 1 are no part of the motion.
+    # The printed digits of 0 0 0 1 are not part of the motion.
     pose = np.vstack([pose[:3], [0.0, 0.0, 0.0, 1.0]])
-    # One that scales evenly counts another unit, which is for `Settled` to say.
+    # One that scales evenly uses another unit, which `Settled` handles.
     if not is_rotation(pose[:3, :3] / scale_of_pose(pose)):
         return pose, [of_scan(scan, "its matrix scales, shears or mirrors; it is used as it is")]
     if stated is None:

@@ -24,12 +24,12 @@ _WIDTHS = (4, 7, 10)
 """`x y z i`, with `r g b`, with a normal after them."""
 
 _LINES = 1 << 14
-"""Of those that are not as plain as most, parsed at once."""
+"""Lines that are parsed at once where the fast parser cannot read them."""
 
 _LONGEST_QUOTE = 40
 _COUNT = re.compile(r"\d{1,18}(\.0*)?")
 _NO_NUMBER = re.compile(r"[-+]?(?:nan\([^)\s]*\)|\d\.#[A-Za-z]+\d*)", re.IGNORECASE)
-"""What Windows programs print for what is no number: -nan(ind), 1.#QNAN."""
+"""What Windows programs print for NaN and infinity: -nan(ind), 1.#QNAN."""
 
 END_MARKS = "\x1a\x00 \t"
 
@@ -188,7 +188,7 @@ def _read_scan(lines, first, *, after, options):
             columns=columns,
             rows=rows,
         )
-        # Of the only scan there is, what is whole is better than nothing.
+        # If there is only one scan, its complete columns are better than nothing.
         if after or found < 2 * rows:
             raise _CutShort(ended)
         notes.append(Message("{reason}; its complete columns were read", reason=ended.message))
@@ -276,7 +276,7 @@ class _Body:
         """(N, 3) uint8 of the colors, None where there are none; what is to be said of them is added to the notes."""
         if self._color is None:
             return None
-        # Eight bits as they are, unless they are all zeros and ones.
+        # Values of 8 bits are kept as they are, unless they are all zeros and ones.
         if self._color.dtype == np.uint8 and self._color.max() > 1:
             return self._color
         return scaled_colors(self._color, None, lambda template, **values: notes.append(Message(template, **values)))
@@ -328,7 +328,7 @@ class _Body:
                     raise self._lines.error("expected 4 or 7 values, found {found}", number=number, found=_found(words))
                 values = [_number(self._lines, word, number) for word in words]
             except ScanError:
-                # The last line of all was cut, not written wrongly.
+                # The last line of the file was cut off, not written wrongly.
                 if number == self._lines.number and self._lines.at_end():
                     break
                 raise

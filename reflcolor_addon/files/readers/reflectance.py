@@ -1,4 +1,4 @@
-"""What of a file is the reflectance: the intensity, a gray color image in its place, or the luminance of its colors."""
+"""Chooses a file's reflectance: the intensity, a gray color image in its place, or the luminance of its colors."""
 
 import numpy as np
 
@@ -66,7 +66,7 @@ def told_apart(reflectance, color, valid, warn):
 
 def is_constant(values, valid):
     """Return whether an (H, W) array is the same at all valid pixels; what is not finite does not count."""
-    # Mostly some of them show it.
+    # A few of them usually suffice.
     some = tuple(slice(None, None, max(1, size // _LOOKED_AT)) for size in valid.shape)
     for part in (some, ...):
         seen = values[part][valid[part]]

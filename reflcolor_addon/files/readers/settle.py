@@ -1,6 +1,5 @@
-"""From stored points to a scanner's grid: where it stood, what the numbers count, which way is up, if it is one at all.
-
-Nothing of this is believed from a header alone; the points show it.
+"""From stored points to a scanner's grid: the scanner's position, the unit, which way is up, and whether there is a
+grid at all. Headers are not trusted alone; the points decide.
 """
 
 import math
@@ -90,7 +89,7 @@ class Settled:
         self._by_hand()
 
     def _leave_out_repeated(self):
-        """Some programs write the scanner's own place, or any other, where there is no return."""
+        """Some programs write the scanner's position, or any other point, where there is no return."""
         place = repeated_point(self._sample())
         if place is None:
             return
@@ -122,7 +121,7 @@ class Settled:
             self._origin = None if self._origin is None else self._origin * meters
 
     def _make_whole(self):
-        """Close up numbers that skip, make a thinned grid coarser, and see that it is a grid at all."""
+        """Close gaps in the numbering, make a thinned grid coarser, and check that it is a grid at all."""
         if cells := compacted(self.valid):
             self._regrid(cells)
             self._warn(
@@ -172,7 +171,7 @@ class Settled:
             return
         kind, origin = found
         if kind == "matrix":
-            # The points are where the pose would bring them: it is taken back from them.
+            # The points are already transformed by the pose: they are transformed back.
             inverse = np.linalg.inv(self.pose[:3, :3])
             self.points[:] = (self.points - self.pose[:3, 3]) @ inverse.T
             self._warn("its points are in world coordinates already; its pose is not applied to them again")
@@ -218,7 +217,7 @@ class Settled:
         up = np.linalg.inv(self.pose[:3, :3]) @ Z_UP
         up /= np.linalg.norm(up)
         if self._camera is not None and abs(up[2]) > _NEARLY_UP:
-            # A camera that looks straight up or down by its pose: most likely it was given none.
+            # By its pose the camera looks straight up or down: most likely the file has no real pose.
             return self._camera
         if up[2] > _NEARLY_UP:
             return Z_UP

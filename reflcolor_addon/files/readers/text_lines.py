@@ -6,7 +6,7 @@ from ...native import library
 from ...native.numbers import read_numbers
 from ..gate import size_of
 
-# So large that reading it is worth the while, so small that it stays in the cache until it is parsed.
+# Large enough to be read efficiently, small enough to stay in the cache until it is parsed.
 _BLOCK = 1 << 20
 _LONGEST_LINE = 1 << 16
 _WIDE_MARKS = (b"\xff\xfe", b"\xfe\xff")
@@ -31,7 +31,7 @@ class TextLines:
         self.number = 0
         """Number of the last line handed out, from 1."""
         self._file, self._progress, self._cancelled = file, progress, cancelled
-        # What is at hand: lines that end in LF, and where the next one begins.
+        # The current block: lines that end in LF, and where the next one begins.
         self._data, self._at = b"", 0
         self._rest, self._ended = b"", False
 
@@ -51,7 +51,7 @@ class TextLines:
         lines = self._data[self._at :].split(b"\n", limit)
         left = lines.pop()
         if left and len(lines) < limit:
-            # The last line of the file may do without its end.
+            # The last line of the file may lack its line end.
             lines.append(left)
             left = b""
         self._hand_out(len(self._data) - len(left), len(lines))
@@ -86,7 +86,7 @@ class TextLines:
 
     def bytes_left(self):
         """How many bytes of text have not been handed out yet; at most, for line ends may take two."""
-        # Every line counts with the end that it has, or could have.
+        # Every line counts with its line end, whether or not the last one has one.
         here = len(self._data) - self._at + (self._at < len(self._data) and not self._data.endswith(b"\n"))
         return self.size - self._file.tell() + len(self._rest) + here
 

@@ -1,6 +1,6 @@
-"""Whether a finished file is whole, told by its own structure: what its header announces against what is there.
+"""Checks whether a finished file is complete, by comparing its header with its contents.
 
-A disk that was full, or a program that did not notice, leaves a file that begins well.
+A full disk can leave a file that begins correctly but is cut short.
 """
 
 import struct

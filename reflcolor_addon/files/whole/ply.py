@@ -77,7 +77,7 @@ def _records(data, order, count, properties):
     at = done = 0
     (first, *others), end = properties, len(data)
     if not others and isinstance(first, tuple) and first[0] == 1:
-        # Faces as everyone writes them, mostly with as many corners as the first one.
+        # Faces in the usual form, mostly with as many corners as the first one.
         item = first[1]
         lengths = np.frombuffer(data, np.uint8)[:: 1 + item * data[0]][:count]
         other = np.flatnonzero(lengths != data[0])

@@ -4,7 +4,7 @@ from ..e57_pages import HEADER, PAGE, first_bad_page
 from .fault import Fault, exactly, require_end
 
 _CHUNK = 1 << 20
-# Of a PTX scan, between the size of its grid and its points: the scanner's position and axes, and the matrix.
+# Lines between the grid's size and the points of a PTX scan: the scanner's position and axes, and the matrix.
 _HEADER_LINES = 8
 
 

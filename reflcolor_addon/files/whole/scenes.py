@@ -6,7 +6,7 @@ import struct
 from .fault import Fault, exactly, require_end
 
 _ZSTD_FRAME = b"\x28\xb5\x2f\xfd"
-# What ends a seekable zstd file: a table of its frames, in a frame that readers skip.
+# The end of a seekable zstd file: a table of its frames, in a frame that readers skip.
 _TABLE_HEAD, _TABLE_END = struct.Struct("<II"), struct.Struct("<IBI")
 _SKIPPED, _SEEKABLE = 0x184D2A5E, 0x8F92EAB1
 _CHECKSUMS = 0x80
@@ -80,8 +80,8 @@ def _check_frames(file, size):
 
 def _check_blocks(file, size, start):
     """Blocks that follow each other up to the one that is called ENDB."""
-    # Until Blender 5 the header ends with the size of a pointer, the byte order and the version; since then it tells
-    # its own length first.
+    # Before Blender 5 the header ends with the size of a pointer, the byte order and the version; since then it begins
+    # with its own length.
     if start[7:8] in (b"-", b"_"):
         order, at = ("<" if start[8:9] == b"v" else ">"), 12
         head = struct.Struct(f"{order}4si{'QII' if start[7:8] == b'-' else 'III'}")

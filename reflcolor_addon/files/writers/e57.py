@@ -56,7 +56,7 @@ def write_e57(scans: Scan | Iterable[Scan], path: PathLike | str) -> None:
                 for scan in scans:
                     document.write_scan(scan)
             finally:
-                # Writes what is still held back, and so can fail, too.
+                # Closing writes buffered data, so it can fail, too.
                 image.close()
         except libe57.E57Exception as error:
             reason = str(error).strip().partition("\n")[0]

@@ -1,4 +1,4 @@
-"""The colors back into a copy of the E57 that a scan came from: everything else of the file stays as it is."""
+"""Writes colors into a copy of the E57 that a scan came from; everything else in the file is unchanged."""
 
 import mmap
 import os
@@ -96,7 +96,7 @@ def _copy(file, source, parts, places, temporary, path, warnings, progress, canc
     number, shown = shared_file(size)
     limits = {
         "memory": _BASE_BYTES + size + _BYTES_PER_XML_BYTE * min(_LARGEST_XML * 64, size_of(file)),
-        # Packets and pages add a little to every byte, and a point with colors has more of them.
+        # Packets and pages add overhead to every byte, and a point with colors has more bytes.
         "written": 2 * size_of(file) + 16 * size + (1 << 24),
         "seconds": _BASE_SECONDS + (size_of(file) + size) // _BYTES_PER_SECOND,
     }

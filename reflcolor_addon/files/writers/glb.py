@@ -25,9 +25,9 @@ _ARRAY, _ELEMENTS = 34962, 34963
 _POINTS, _TRIANGLES = 0, 4
 _HEADER = 12
 _CHUNK_HEADER = 8
-# A document of JSON needs room, too; a scan's part of it is far smaller.
+# Room for the JSON document; a scan's part of it is far smaller.
 _JSON_PER_SCAN = 8192
-# What a colorization adds to a surface that has none yet.
+# What a colorization adds to a surface without one.
 _MORE_VALUES = 4
 _TO_Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 _ROTATION_TOLERANCE = 1e-7
@@ -57,7 +57,7 @@ def _glb_bytes(surfaces, textures, triangles):
     size = 0
     for surface, texture in zip(surfaces, textures, strict=True):
         values = len(surface.value_types) + (0 if surface.has_colors else _MORE_VALUES)
-        # Place, normal and color; a vertex that is in no face is listed by its index.
+        # Position, normal and color; a vertex in no face is listed by its index.
         size += surface.vertex_count * (12 + 12 + 8 + 4 * values + 4) + triangles(surface) * 12
         size += len(texture or b"") + _JSON_PER_SCAN
     return size
@@ -117,7 +117,7 @@ def write_glb(
 
 
 class _Teller:
-    """Tells how far the writing is, and ends it where that is asked for."""
+    """Reports the progress of writing, and cancels it on request."""
 
     def __init__(self, progress, cancelled, text, whole):
         self._progress, self._cancelled, self._text, self._whole, self._done = progress, cancelled, text, whole, 0
@@ -211,7 +211,7 @@ class _Document:
         file.write(struct.pack("<4sII", b"glTF", 2, start + self.size))
         file.write(struct.pack("<I4s", len(text), b"JSON") + text)
         file.write(struct.pack("<I4s", self.size, b"BIN\0"))
-        # All parts are as long as announced, so each can be written where it belongs.
+        # The length of every part is known, so each can be written to its place.
         file.truncate(start + self.size)
         places = [start + view["byteOffset"] for view in self._views]
 

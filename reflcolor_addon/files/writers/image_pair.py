@@ -13,7 +13,7 @@ from ..readers.scan_json import write_scan_json
 
 SUFFIX = ".scan.json"
 _FULL = 65535
-# How far, in steps, a point may lie from the ray of its pixel.
+# Largest distance, in steps, of a point from the ray of its pixel.
 _GRID_TOLERANCE = 0.25
 
 
@@ -97,7 +97,7 @@ def spherical_limits_deg(scan):
     elevation = np.degrees(np.arctan2(points[..., 2], np.hypot(points[..., 0], points[..., 1])))
     top = np.ma.median(np.ma.array(elevation, mask=~valid), axis=1).filled(np.nan)[rows]
     azimuth = np.degrees(np.arctan2(points[..., 0], points[..., 1]))
-    # Around each column's first valid azimuth, so that the cut at 180 degrees does not fall inside a column.
+    # Relative to each column's first valid azimuth, so that the cut at 180 degrees does not fall inside a column.
     first = azimuth[np.argmax(valid, axis=0), np.arange(scan.shape[1])]
     around = (azimuth - first + 180) % 360 - 180
     middle = (first + np.ma.median(np.ma.array(around, mask=~valid), axis=0).filled(np.nan))[columns]

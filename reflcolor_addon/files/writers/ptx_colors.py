@@ -1,4 +1,4 @@
-"""The colors back into a copy of the PTX that a scan came from: every number of it stays as it is written."""
+"""Writes colors into a copy of the PTX that a scan came from; every other number stays as it is written."""
 
 from pathlib import Path
 
@@ -58,7 +58,7 @@ def write_ptx_colors(source, colors, path, *, options=AS_IT_IS, progress=None, c
 
 
 def _rest(lines):
-    """How many lines that say something are left."""
+    """How many lines that are not blank are left."""
     count = 0
     while (line := lines.next_line()) is not None:
         count += bool(line.strip(END_MARKS))
@@ -90,7 +90,7 @@ def _copy_scan(lines, made, rgb):
             header.append(line)
     columns, rows = (int(float(word)) for word in header[:2])
     if rgb is not None and len(rgb) < columns * rows:
-        # Of a file that is cut short the whole columns.
+        # The complete columns of a file that is cut short.
         columns = len(rgb) // rows
         header[0] = str(columns)
     made.write("\n".join(header) + "\n")

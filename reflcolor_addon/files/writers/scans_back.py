@@ -1,4 +1,4 @@
-"""Colorized scans as scan files again, for programs that go on with them."""
+"""Writes colorized scans as scan files again, for programs that process them further."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,7 +15,7 @@ from .ptx import write_ptx
 from .ptx_colors import write_ptx_colors
 
 SCAN_FILES = (".e57", ".ptx")
-"""What colorized scans can be written back as."""
+"""The formats that colorized scans can be written back to."""
 
 _COPIES = {".e57": write_e57_colors, ".ptx": write_ptx_colors}
 _DECIMALS = 9
