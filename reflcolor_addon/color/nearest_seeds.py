@@ -52,15 +52,15 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
         The seeds of all pixels, to be blended with another alpha.
     """
     levels = colorspaces.levels_per_unit(settings.color_space)
-    found, method, told = None, {}, 0.0
+    found, method, reported = None, {}, 0.0
     sought = NUMBERS if settings.nearest == "auto" else (settings.nearest,)
     for k in dict.fromkeys(min(number, len(pixels)) for number in sought):
         if found is not None:
             _require_memory(engine, k, valid.shape)
         # It is not known yet whether more seeds will be needed.
-        end = (told + 1) / 2 if settings.nearest == "auto" else 1.0
-        found = _found(engine, pixels, k, found, threads, _part_of(progress, told, end), cancelled)
-        told, method["nearest"] = end, k
+        end = (reported + 1) / 2 if settings.nearest == "auto" else 1.0
+        found = _found(engine, pixels, k, found, threads, _part_of(progress, reported, end), cancelled)
+        reported, method["nearest"] = end, k
         if settings.nearest == "auto":
             doubled = doubled_levels(found.at(sample_of(valid)), values, settings.alpha, levels)
             method["doubled_levels"] = {"p95": round(doubled, 3)}
@@ -118,14 +118,14 @@ def _part_of(progress, start, end):
 
 
 def _found(engine, pixels, k, known, threads, progress, cancelled):
-    def tell(control):
+    def report(control):
         share = min(1, control.done / len(pixels))
         progress(share, Message("{nearest} nearest of {count} seeds", nearest=k, count=len(pixels)))
 
     def search(control):
         return engine.nearest(pixels, k, control, threads=threads, known=known)
 
-    return done_apart(engine.control(), search, tell, cancelled)
+    return done_apart(engine.control(), search, report, cancelled)
 
 
 def _require_memory(engine, k, shape):

@@ -9,9 +9,9 @@ import numpy as np
 
 from ..errors import Cancelled
 from ..files.memory import require_memory
-from ..geodesic.blending import left_out
+from ..geodesic.blending import leave_one_out
 from ..geodesic.engines import engine_class, engine_for
-from ..geodesic.exact import HeldFields, add_fields
+from ..geodesic.exact import HeldFields, SeedProgress, add_fields
 from ..geodesic.graph import PixelGraph
 from ..geodesic.smoothing import smooth
 from ..messages import Message
@@ -183,7 +183,7 @@ class Spreader:
         spread, confidence = mean.values, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
         if kriging:
             estimate, kriging_residuals = self._krige(pixels, values, progress, cancelled)
-            path_residuals = values - left_out(*near, values, alpha)
+            path_residuals = values - leave_one_out(*near, values, alpha)
             unit = colorspaces.levels_per_unit(self.settings.color_space)
             confidence /= 1 + np.hypot(*(estimate - spread)[CHROMINANCE]) * unit / HALF_CONFIDENCE_LEVELS
             for part, name in zip(channels_of(self.settings), ("kriging", "kriging_of_luminance"), strict=False):
@@ -233,45 +233,43 @@ class Spreader:
     def _exact(self, pixels, values, alpha, progress, cancelled):
         """Eq. 1 over all seeds, in their order; fields that are not held are computed in threads, a few ahead."""
         wanted = list(zip(pixels.tolist(), map(tuple, values.tolist()), strict=True))
-        done, near = len(self._blended), None
+        done, between = len(self._blended), None
         if self.settings.kriging and pixels.size <= MAX_SEEDS:
             # Kriging needs the distances between seeds, so every field is visited again.
             self._forget_sums()
-            near = np.empty((pixels.size,) * 2, np.float32), np.broadcast_to(np.arange(pixels.size), (pixels.size,) * 2)
+            between = np.empty((pixels.size,) * 2, np.float32)
         if self._blend is None or self._alpha != alpha or self._blended != wanted[:done]:
             self._forget_sums()
             self._alpha, done = alpha, 0
             self._blend = self._engine.blend(self._alpha, values.shape[1])
-
-        held = done + sum(self._fields.get(pixel) is not None for pixel, _ in wanted[done:])
-        ahead, inside = done, np.count_nonzero(self.scan.valid)
-
-        def working(settled=0):
-            nonlocal ahead
-            # Pixels are settled a little more than once on average, so this never reports more than is done.
-            most = min(len(self._blended) + self.threads, len(wanted))
-            ahead = max(ahead, len(self._blended), min(held + settled / inside, most))
-            progress(
-                ahead / len(wanted), Message("Seed {number} of {count}", number=len(self._blended), count=len(wanted))
-            )
+        missing = wanted[done:]
+        held = done + sum(self._fields.get(pixel) is not None for pixel, _ in missing)
+        report = SeedProgress(progress, len(wanted), held, np.count_nonzero(self.scan.valid), self.threads)
 
         def added(index, field):
-            self._blended.append(wanted[done + index])
-            if near is not None:
-                near[0][:, done + index] = field[np.unravel_index(pixels, self.scan.shape)]
-            working()
+            self._blended.append(missing[index])
+            if between is not None:
+                between[:, done + index] = field[np.unravel_index(pixels, self.scan.shape)]
+            report(len(self._blended))
 
-        how = {"threads": self.threads, "held": self._fields}
-        told = {"added": added, "working": working, "cancelled": cancelled}
         try:
-            add_fields(self._engine, self._blend, wanted[done:], **how, **told)
+            add_fields(
+                self._engine,
+                self._blend,
+                missing,
+                threads=self.threads,
+                held=self._fields,
+                added=added,
+                working=lambda settled: report(len(self._blended), settled),
+                cancelled=cancelled,
+            )
         except BaseException:
             self._forget_sums()
             raise
         mean = self._blend.mean(keep=self.keeps)
         if not self.keeps:
             self._forget_sums()
-        return mean, near
+        return mean, None if between is None else (between, np.broadcast_to(np.arange(pixels.size), between.shape))
 
     def _krige(self, pixels, values, progress, cancelled):
         """Return the (C, H, W) float32 values estimated by kriging, 0 where not valid, and residuals of the seeds."""

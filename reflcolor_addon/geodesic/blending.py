@@ -135,7 +135,22 @@ def weighted_mean(distances, seeds, values, alpha):
 
 
 def _shift(values, mean, seeds, total, each, side):
-    """How far seeds of weights up to ``each``, but for ``seeds``, can move the mean up (side 1) or down (side -1)."""
+    """Bound how far the seeds that are not listed can move a mean up (side 1) or down (side -1).
+
+    A seed that is not listed has a weight of at most w (``each``); the listed ones have the mean m and together the
+    weight W (``total``). If the others move the mean up by t, then W t = sum of w_j (v_j - m - t) over them. Only
+    values beyond m + t pull up, so that W t <= w q(t), with q(t) = sum of max(v_j - m - t, 0). As q falls with t, the
+    bound is where w q(t) = W t. It is enclosed from above:
+
+    - ``table`` has q of all seeds at a few values. q is convex, so linear interpolation is never below it. At t = 0
+      the listed seeds are subtracted (``beyond``), and q is never larger than there.
+    - The first bound is where the chord from q(0) = ``beyond`` to q(``span``) = 0 meets W t / w; ``span`` is the
+      distance from the mean to the largest value.
+    - Each round halves the bracket from t0 to t, keeps the half that holds the solution, and takes the place where its
+      chord meets W t / w. A bound that is small already stays.
+
+    Down is the same with all values negated.
+    """
     values, mean = side * values, side * mean
     edges = np.linspace(values.min(), values.max(), _BINS + 1)
     table = _RAISED * np.maximum(values[:, None] - edges, 0).sum(axis=0)
@@ -157,7 +172,7 @@ def _shift(values, mean, seeds, total, each, side):
     return np.where(moved, t, 0)
 
 
-def left_out(distances, seeds, values, alpha):
+def leave_one_out(distances, seeds, values, alpha):
     """Take eq. 1 at every seed's own pixel, over the other seeds near it.
 
     Parameters
@@ -181,11 +196,11 @@ def left_out(distances, seeds, values, alpha):
     return weighted_mean(distances, seeds, values, alpha)[0].astype(np.float32)
 
 
-def _relative_weight(farther, nearest, alpha):
-    """(farther / nearest)^-alpha, in 0..1; 1 for two zeros, 0 for anything against zero or for the unreached."""
-    weight = np.zeros(farther.shape)
-    weight[(farther == 0) & (nearest == 0)] = 1.0
-    proper = (nearest > 0) & np.isfinite(farther)
-    # Not (farther / nearest)^-alpha: that overflows for distances near the least number there is.
-    weight[proper] = (nearest[proper] / farther[proper]) ** alpha
+def _relative_weight(distance, least, alpha):
+    """(distance / least)^-alpha, in 0..1; 1 for two zeros, 0 for any other distance against zero or if unreached."""
+    weight = np.zeros(distance.shape)
+    weight[(distance == 0) & (least == 0)] = 1.0
+    proper = (least > 0) & np.isfinite(distance)
+    # Not (distance / least)^-alpha, which overflows if the least distance is close to the smallest float.
+    weight[proper] = (least[proper] / distance[proper]) ** alpha
     return weight

@@ -5,6 +5,7 @@ from concurrent.futures import ThreadPoolExecutor, wait
 from itertools import islice
 
 from ..errors import Cancelled
+from ..messages import Message
 
 _POLL_S = 0.02
 
@@ -42,6 +43,35 @@ class HeldFields:
         self.nbytes = 0
 
 
+class SeedProgress:
+    """Reports how many seeds are summed and, between them, how far the fields in work are.
+
+    Parameters
+    ----------
+    progress : callable
+    count : int
+        Seeds in all.
+    held : int
+        Seeds whose fields need not be computed.
+    pixels : int
+        Pixels of a field.
+    threads : int
+        Fields that are computed at a time.
+    """
+
+    def __init__(self, progress, count, held, pixels, threads):
+        self._progress, self._count, self._held, self._pixels = progress, count, held, pixels
+        self._threads, self._reported = threads, 0
+
+    def __call__(self, summed, settled=0):
+        """Report that ``summed`` seeds are done, and ``settled`` pixels in all fields together."""
+        # Pixels are settled a little more than once on average, so the fields in work limit what they count for.
+        most = min(summed + self._threads, self._count)
+        self._reported = max(self._reported, summed, min(self._held + settled / self._pixels, most))
+        text = Message("Seed {number} of {count}", number=summed, count=self._count)
+        self._progress(self._reported / self._count, text)
+
+
 def add_fields(engine, blend, seeds, *, threads, held, added, cancelled, working=lambda pixels: None):
     """Add seeds to the sums of eq. 1, in their order, whatever the number of threads.
 
@@ -70,7 +100,7 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled, working
     """
     control = engine.control()
 
-    def tell():
+    def report():
         working(control.done)
 
     # One more thread: this one checks for cancellation.
@@ -88,12 +118,12 @@ def add_fields(engine, blend, seeds, *, threads, held, added, cancelled, working
                     if other not in ahead:
                         ahead[other] = pool.submit(engine.field, seeds[other][0], control)
                 if not fields:
-                    fields.append(awaited(ahead.pop(index), control, tell, cancelled))
+                    fields.append(awaited(ahead.pop(index), control, report, cancelled))
                     end = index + 1
                 values = [own for _, own in seeds[index:end]]
                 run = pool.map if len(fields) > 1 else map
                 summed = pool.submit(blend.add_all, fields, values, control, run)
-                awaited(summed, control, tell, cancelled)
+                awaited(summed, control, report, cancelled)
                 for field in fields:
                     held.hold(seeds[index][0], field)
                     added(index, field)
@@ -109,7 +139,7 @@ def _missing(seeds, first, held, count):
     return list(islice(found, count))
 
 
-def awaited(later, control, tell, cancelled):
+def awaited(later, control, report, cancelled):
     """The result of a future; meanwhile the caller's own thread asks ``cancelled()`` and reports the progress."""
     while True:
         if cancelled():
@@ -118,16 +148,16 @@ def awaited(later, control, tell, cancelled):
             raise Cancelled
         if later in wait([later], _POLL_S).done:
             return later.result()
-        tell()
+        report()
 
 
-def done_apart(control, work, tell, cancelled):
+def done_apart(control, work, report, cancelled):
     """Return ``work(control)``, run in a thread; meanwhile this one checks for cancellation and reports the
     progress."""
     with ThreadPoolExecutor(1, "reflcolor") as pool:
         later = pool.submit(work, control)
         try:
-            return awaited(later, control, lambda: tell(control), cancelled)
+            return awaited(later, control, lambda: report(control), cancelled)
         except BaseException:
             control.cancel()
             raise

@@ -79,7 +79,7 @@ def write_page(root, session):
 
 
 def _entries(root, session):
-    """What is to be told of each scan, by name."""
+    """The report of each scan, by name."""
     paths = sorted((root / REPORTS).glob("*.json"))
     entries, items = {}, _items(root)
     for number, path in enumerate(paths):
@@ -218,7 +218,7 @@ def _details_of(entry):
 
 def _details(report):
     """What unfolds below a scan; raises what a report that lacks a part lets it raise."""
-    told = outline(report)
+    summary = outline(report)
     parts = []
     if report["warnings"]:
         parts.append("<p>Warnings</p>" + _list(map(str, report["warnings"])))
@@ -226,11 +226,11 @@ def _details(report):
         parts.append("<p>Photos</p>" + _list(f"{photo['name']}: {photo['note']}" for photo in report["photos"]))
     facts = {
         "Grid": f"{report['scan']['columns']} x {report['scan']['rows']} pixels",
-        "Seeds": ", ".join(f"{count} {source}" for source, count in told.sources.items()),
+        "Seeds": ", ".join(f"{count} {source}" for source, count in summary.sources.items()),
         "Settings": ", ".join(f"{name} {value}" for name, value in report["settings"].items()),
-        "Inputs": "; ".join(f"{role} {path} (SHA-256 {sha256})" for role, path, sha256 in told.inputs),
+        "Inputs": "; ".join(f"{role} {path} (SHA-256 {sha256})" for role, path, sha256 in summary.inputs),
         "Outputs": "; ".join(output["path"] for output in report["outputs"]),
-        "Made": told.created,
+        "Made": summary.created,
         "Versions": ", ".join(f"{name} {value}" for name, value in report["versions"].items() if value),
     }
     lines = "".join(f"<dt>{escape(name)}</dt><dd>{escape(text)}</dd>" for name, text in facts.items() if text)

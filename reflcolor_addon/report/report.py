@@ -104,7 +104,7 @@ def scan_entry(scan, index, reading=AS_IT_IS):
     """
     rows, columns = scan.shape
     flips = {"vertical": reading.flip_vertical, "horizontal": reading.flip_horizontal}
-    told = {name: value for name, value in reading.as_dict().items() if not name.startswith("flip_")}
+    read_as = {name: value for name, value in reading.as_dict().items() if not name.startswith("flip_")}
     return {
         "name": scan.name,
         "index": index,
@@ -113,7 +113,7 @@ def scan_entry(scan, index, reading=AS_IT_IS):
         "returns": int(scan.valid.sum()),
         "full_turn": scan.full_turn,
         "flipped": [name for name, chosen in flips.items() if chosen],
-    } | ({"reading": told} if told else {})
+    } | ({"reading": read_as} if read_as else {})
 
 
 def input_entry(role, path, cancelled=None):

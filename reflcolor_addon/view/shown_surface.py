@@ -74,20 +74,20 @@ def shown_surface(scan, *, drop_mixed=True, max_incidence_deg=MAX_INCIDENCE_DEG,
         If ``cancelled()`` returned True.
     """
 
-    def step(fraction, text):
+    def report(fraction, text):
         if cancelled is not None and cancelled():
             raise Cancelled
         if progress is not None:
             progress(fraction, text)
 
-    step(0.0, Message("Looking for mixed returns"))
+    report(0.0, Message("Looking for mixed returns"))
     mixed = mixed_pixels(scan, max_incidence_deg) if drop_mixed else np.zeros(scan.shape, bool)
-    step(0.2, Message("Filling small holes"))
+    report(0.2, Message("Filling small holes"))
     grid = _Grid(scan, scan.valid & ~mixed, max_incidence_deg)
-    step(0.5, Message("Smoothing outlines"))
+    report(0.5, Message("Smoothing outlines"))
     polygons = _Polygons(grid)
     points, vertex, pixels = polygons.vertices()
-    step(1.0, Message("Filling small holes"))
+    report(1.0, Message("Filling small holes"))
     return ShownSurface(
         points=points,
         source=grid.nearest.ravel()[pixels],

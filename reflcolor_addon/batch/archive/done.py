@@ -44,7 +44,9 @@ class Done:
         if record is None or (key is not None and record.get("key") != key):
             return None
         outputs = record.get("outputs")
-        if not isinstance(outputs, dict) or not all(self._is_whole(path, told) for path, told in outputs.items()):
+        if not isinstance(outputs, dict) or not all(
+            self._is_whole(path, recorded) for path, recorded in outputs.items()
+        ):
             return None
         return record
 
@@ -62,12 +64,12 @@ class Done:
     def _output(self, path):
         return [*_state(Path(path)), self._fingerprints.of(path)]
 
-    def _is_whole(self, path, told):
+    def _is_whole(self, path, recorded):
         path = Path(path)
         try:
             size, mtime = _state(path)
             # The files of a copied folder have other times; then their bytes are compared.
-            return size == told[0] and (mtime == told[1] or self._fingerprints.of(path) == told[2])
+            return size == recorded[0] and (mtime == recorded[1] or self._fingerprints.of(path) == recorded[2])
         except (OSError, LookupError, TypeError):
             return False
 

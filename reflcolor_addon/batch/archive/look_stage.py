@@ -27,7 +27,7 @@ def photos_of_items(context, items, known_pairs):
     photos = {str(path): context.manifest.photo_name(path) for path in context.manifest.photos}
     hashes = context.hashes(photos)
 
-    def told(item, shows):
+    def known(item, shows):
         return [path for path, name in photos.items() if known_pairs.get((item.name, name)) is shows]
 
     def finished(task, outcome):
@@ -37,13 +37,13 @@ def photos_of_items(context, items, known_pairs):
         scores[task.name] = outcome["found"]["scores"]
         problems.update(outcome["found"]["problems"])
 
-    tasks = [_task(context, item, told(item, None), hashes) for item in items]
+    tasks = [_task(context, item, known(item, None), hashes) for item in items]
     context.work([task for task in tasks if task.request["photos"]], finished, "Looked at photos for")
     for path, problem in problems.items():
         context.session.warnings.append(Message("{photo}: {problem}", photo=photos[path], problem=problem))
     chosen = candidates(scores)
     return {
-        item.name: [*told(item, True), *(told(item, None) if item.name in unseen else chosen.get(item.name, []))]
+        item.name: [*known(item, True), *(known(item, None) if item.name in unseen else chosen.get(item.name, []))]
         for item in items
     }
 

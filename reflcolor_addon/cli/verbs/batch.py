@@ -137,13 +137,13 @@ def _tell(states, arguments, session):
 
 def _openjd(session):
     """Progress as the engine of a render farm reads it from standard output; once for each whole percent."""
-    told = -1
+    printed = -1
 
     def show(fraction, text):
-        nonlocal told
+        nonlocal printed
         percent = int(100 * fraction)
-        if percent > told:
-            told = percent
+        if percent > printed:
+            printed = percent
             session.say(f"openjd_progress: {percent}")
             session.say(f"openjd_status: {text}")
 

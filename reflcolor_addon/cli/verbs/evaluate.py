@@ -87,8 +87,8 @@ def _as_text(figures):
             f"{found['chrominance_psnr_db']:.2f} dB"
         )
     similarity = figures["structural_similarity"]
-    told = "no window of 7 x 7 pixels is whole" if similarity is None else f"{similarity:.2f}"
-    return "\n".join([*lines, f"structural similarity of the luminance: {told}"])
+    text = "no window of 7 x 7 pixels is whole" if similarity is None else f"{similarity:.2f}"
+    return "\n".join([*lines, f"structural similarity of the luminance: {text}"])
 
 
 def _finite(document):

@@ -16,7 +16,7 @@ def python_program():
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     folders = (Path(sys.base_exec_prefix), Path(sys.base_exec_prefix, "bin"))
     names = ("python.exe",) if sys.platform == "win32" else (version, "python3")
-    told = (sys.executable, getattr(sys, "_base_executable", None))
-    candidates = [Path(path) for path in told if path and Path(path).stem.startswith("python")]
+    stated = (sys.executable, getattr(sys, "_base_executable", None))
+    candidates = [Path(path) for path in stated if path and Path(path).stem.startswith("python")]
     candidates += [folder / name for folder in folders for name in names]
     return next((path for path in candidates if path.is_file()), None)

@@ -68,7 +68,7 @@ def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
                 yield header, None, None
                 continue
 
-            def tell(fraction, done=done, name=header.name):
+            def report(fraction, done=done, name=header.name):
                 if cancelled and cancelled():
                     raise Cancelled
                 if progress:
@@ -78,9 +78,9 @@ def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
 
             done += 1
             if header.grouped_by is not None and not header.has(INDEX):
-                groups = columns.read(index, header.group_count, GROUP, tell, vector=GROUPS)
+                groups = columns.read(index, header.group_count, GROUP, report, vector=GROUPS)
                 header.groups = {name: values.copy() for name, values in groups.items()}
-            read = columns.read(index, header.count, header.fields, tell)
+            read = columns.read(index, header.count, header.fields, report)
             try:
                 stored, cells = stored_grids(read, header, options)
                 yield (*finish_grid(source=path, **stored), partial(np.asarray, cells))

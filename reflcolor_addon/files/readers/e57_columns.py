@@ -108,7 +108,7 @@ class E57Columns:
         if self._shown:
             Path(self._shown).unlink(missing_ok=True)
 
-    def read(self, index, count, fields, tell, vector=("points",)):
+    def read(self, index, count, fields, report, vector=("points",)):
         """Read the points of a scan.
 
         Parameters
@@ -118,7 +118,7 @@ class E57Columns:
         count : int
             Records that it announces.
         fields : sequence of str
-        tell : callable
+        report : callable
             Called with a fraction.
         vector : sequence of str
             Where the records are below the scan's node: its points, or its groups of them.
@@ -128,11 +128,11 @@ class E57Columns:
         dict of str to (count,) float64
             Views of the shared memory: the next reading overwrites them.
         """
-        tell(0.0)
+        report(0.0)
         with OneLine(self._path):
             self._child.ask({"scan": index, "vector": list(vector), "count": count, "fields": list(fields)})
         while (found := self._answer("at", "done", most=count))[0] == "at":
-            tell(found[1] / count)
+            report(found[1] / count)
         if found[1] != count:
             raise ScanError(
                 "{file}: holds {found:,} points where {count:,} were announced; it is damaged",

@@ -186,8 +186,8 @@ def _pose(node):
     rotation = [node.number("pose", "rotation", name) for name in "wxyz"]
     translation = [node.number("pose", "translation", name) for name in "xyz"]
     quaternion = np.array([1.0, 0, 0, 0] if None in rotation else rotation)
-    pose, told = quaternion_pose(quaternion, np.array([value or 0.0 for value in translation]), "")
-    return None if told or not np.isfinite(pose).all() else pose
+    pose, doubts = quaternion_pose(quaternion, np.array([value or 0.0 for value in translation]), "")
+    return None if doubts or not np.isfinite(pose).all() else pose
 
 
 def _photos(file, path, inside, warnings):

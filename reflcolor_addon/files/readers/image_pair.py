@@ -45,13 +45,13 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     description = check_description(parse_json(file, path, EXPECTED, error=ScanError, most=LARGEST_FILE), path.name)
     image_of = _Images(path, outside, cancelled)
 
-    def tell(fraction, file_name):
+    def report(fraction, file_name):
         if cancelled and cancelled():
             raise Cancelled
         if progress:
             progress(fraction, Message("Reading {file}", file=file_name))
 
-    tell(0.0, description.range)
+    report(0.0, description.range)
     values, opaque = image_of("range", description.range, read_measured)
     if values.dtype.kind in "ui" and description.range_scale is None and description.range_table is None:
         raise ScanError(
@@ -84,7 +84,7 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     distance = np.where(valid, description.meters(values), 0.0)
     valid &= (distance > 0) & (distance < _NOTHING_HIT_M)
 
-    tell(0.4, description.reflectance)
+    report(0.4, description.reflectance)
     reflectance, _ = image_of("reflectance", description.reflectance, read_measured)
     _require_same_size(path, "reflectance", description.reflectance, reflectance.shape, shape)
     reflectance = reflectance.astype(np.float32)
@@ -92,11 +92,11 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
 
     color = None
     if description.color is not None:
-        tell(0.6, description.color)
+        report(0.6, description.color)
         color = image_of("color", description.color, read_image)
         _require_same_size(path, "color", description.color, color.shape[:2], shape)
         color = color[..., ::-1] if description.color_order == "bgr" else color
-    tell(0.8, path.name)
+    report(0.8, path.name)
     if valid.any():
         reflectance, color = told_apart(reflectance, color, valid, warn)
     try:

@@ -113,10 +113,12 @@ def write_glb(
     if cancelled and cancelled():
         raise Cancelled
     with written_atomically(path) as temporary, temporary.open("wb") as file:
-        document.write(file, _Teller(progress, cancelled, Message("Writing {name}", name=path.name), document.size))
+        document.write(
+            file, _WriteProgress(progress, cancelled, Message("Writing {name}", name=path.name), document.size)
+        )
 
 
-class _Teller:
+class _WriteProgress:
     """Reports the progress of writing, and cancels it on request."""
 
     def __init__(self, progress, cancelled, text, whole):
@@ -203,8 +205,8 @@ class _Document:
         self._materials.append(self._material(surface.name, texture))
         self._shift = placement.shift
 
-    def write(self, file, tell):
-        """Write it to an open binary file; ``tell(bytes)`` is called for every piece."""
+    def write(self, file, written):
+        """Write it to an open binary file; ``written(bytes)`` is called for every piece."""
         text = json.dumps(self._content(), ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
         text += b" " * (-len(text) % 4)
         start = _HEADER + _CHUNK_HEADER + len(text) + _CHUNK_HEADER
@@ -220,7 +222,7 @@ class _Document:
             file.seek(places[view])
             file.write(values)
             places[view] += values.nbytes
-            tell(values.nbytes)
+            written(values.nbytes)
 
         for surface, placement, attributes, indices in self._writers:
             _put_vertices(surface, placement, attributes, put)
