@@ -6,13 +6,13 @@ from ..reflcolor_addon.batch.pipeline import colorize_jobs
 from ..reflcolor_addon.batch.scan_job import ScanJob
 from .scene import polls
 from .scene.colorized_object import show_colorization
-from .scene.notices import tell, tell_together
+from .scene.notices import show_result, show_results
 from .scene.photo_colors import observed_reader, use_cameras
 from .scene.provenance import record_provenance, window_report
 from .scene.scan_object import grid_indices, scan_reader
 from .scene.seed_list import seeds_of
 from .scene.setting_properties import COLORIZE_NAMES, ColorizeArguments, core_settings, keep_used_settings
-from .scene.texts import told
+from .scene.texts import report_text
 from .window import live_update
 from .window.jobs import JobOperator
 
@@ -30,7 +30,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
         return polls.has_scan_to_color(cls, context)
 
     def prepare(self, context):
-        scans, self._left_out = polls.fitting_scans(context, polls.not_colorable)
+        scans, self._skipped = polls.fitting_scans(context, polls.not_colorable)
         self._settings = core_settings(self, context.scene, COLORIZE_NAMES)
         # Jobs hold names, not objects: after an undo, objects may be gone or be different ones.
         jobs = [_job(obj, self._settings) for obj in scans]
@@ -47,7 +47,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
         for job in jobs:
             obj = bpy.data.objects.get(job.name)
             if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != job.colorization.rgb.shape[:2]:
-                self.report({"WARNING"}, told("{name} is gone; its colors were dropped", name=job.name))
+                self.report({"WARNING"}, report_text("{name} is gone; its colors were dropped", name=job.name))
                 continue
             # Raises if a mesh cannot take them, before any mesh is changed.
             grid_indices(obj)
@@ -57,12 +57,12 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
             show_colorization(obj, result)
             use_cameras(obj)
             record_provenance(obj, window_report(obj, result, self._settings, job.seeds))
-            said = told("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
-            tell(self, obj, said, result.warnings, job.seeds, one_of_several=len(jobs) > 1)
+            said = report_text("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
+            show_result(self, obj, said, result.warnings, job.seeds, one_of_several=len(jobs) > 1)
         objects = [obj for obj, _ in done]
         names = ", ".join(obj.name for obj in objects)
-        together = told("Colorized {count} scans: {names}", count=len(objects), names=names)
-        tell_together(self, objects, together, self._left_out)
+        together = report_text("Colorized {count} scans: {names}", count=len(objects), names=names)
+        show_results(self, objects, together, self._skipped)
 
 
 def _job(obj, settings):

@@ -3,7 +3,7 @@
 import bpy
 
 from .scene import polls
-from .scene.texts import told
+from .scene.texts import report_text
 
 
 class REFLCOLOR_OT_delete_picked(bpy.types.Operator):
@@ -20,7 +20,7 @@ class REFLCOLOR_OT_delete_picked(bpy.types.Operator):
     def invoke(self, context, _event):
         if bpy.ops.reflcolor.delete_seeds.poll():
             return bpy.ops.reflcolor.delete_seeds("EXEC_DEFAULT", True)
-        self.report({"INFO"}, told("Select a seed first"))
+        self.report({"INFO"}, report_text("Select a seed first"))
         return {"CANCELLED"}
 
 

@@ -5,7 +5,7 @@ import bpy
 from .scene import polls
 from .scene.editors import redraw_editors
 from .scene.seed_list import remove_seeds, selected_seeds
-from .scene.texts import told
+from .scene.texts import report_text
 
 
 class REFLCOLOR_OT_delete_seeds(bpy.types.Operator):
@@ -24,7 +24,7 @@ class REFLCOLOR_OT_delete_seeds(bpy.types.Operator):
         doomed = selected_seeds(obj)
         remove_seeds(obj, doomed)
         redraw_editors()
-        self.report({"INFO"}, told("Deleted {count} seeds", count=len(doomed)))
+        self.report({"INFO"}, report_text("Deleted {count} seeds", count=len(doomed)))
         return {"FINISHED"}
 
 

@@ -3,7 +3,7 @@
 import bpy
 
 from ..reflcolor_addon.view.picking import clamped_point
-from .scene.image_sides import event_side
+from .scene.editor_images import event_side
 from .window.drag_seeds import DragSeeds
 from .window.pointer import PointerOperator
 from .window.stroke_seeds import StrokeSeeds

@@ -9,9 +9,9 @@ from ..reflcolor_addon.errors import ScanError
 from .scene import polls
 from .scene.images import read_image
 from .scene.looks import refresh_look
-from .scene.notices import tell
+from .scene.notices import show_result
 from .scene.scan_object import COLORIZED, ERROR, SCANNED, add_values, colors_of, grid_indices
-from .scene.texts import told
+from .scene.texts import report_text
 from .window.jobs import JobOperator
 
 # Value where no true color is known.
@@ -60,12 +60,12 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
         figures, errors = result
         obj = bpy.data.objects.get(self._object_name)
         if obj is None or len(obj.data.vertices) != len(errors):
-            self.report({"WARNING"}, told("{name} is gone; its errors were dropped", name=self._object_name))
+            self.report({"WARNING"}, report_text("{name} is gone; its errors were dropped", name=self._object_name))
             return
         add_values(obj, ERROR, np.nan_to_num(errors, nan=UNKNOWN))
         refresh_look(obj)
         mean, percentile = (figures["as_is"][f"ciede2000_{name}"] for name in ("mean", "p95"))
-        said = told(
+        said = report_text(
             "{name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of {count} vertices; "
             "with the true luminance {alone:.2f} in the mean",
             name=obj.name,
@@ -74,7 +74,7 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
             count=figures["pixels"],
             alone=figures["color_alone"]["ciede2000_mean"],
         )
-        tell(self, obj, said, ())
+        show_result(self, obj, said, ())
 
     def _image(self, obj):
         if not self.truth:

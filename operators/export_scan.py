@@ -15,7 +15,7 @@ from .scene import polls
 from .scene.colored_scan import colored_scans_reader
 from .scene.object_surface import surface_of_object
 from .scene.provenance import import_record
-from .scene.texts import shown, told
+from .scene.texts import report_text, shown
 from .scene.usd import write_usd
 from .window.jobs import JobOperator
 
@@ -98,7 +98,7 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
                 write_usd(context, polls.scan_objects(context), temporary)
         for warning in warnings:
             self.report({"WARNING"}, shown(warning))
-        self.report({"INFO"}, told("Exported {path}", path=path))
+        self.report({"INFO"}, report_text("Exported {path}", path=path))
 
     def draw(self, _context):
         layout = self.layout

@@ -18,13 +18,13 @@ from ..reflcolor_addon.messages import Message
 from ..reflcolor_addon.report.report import input_entry, scan_entry
 from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.scan.object_arrays import object_arrays
-from .scene.notices import tell
+from .scene.notices import show_result
 from .scene.pair_preview import draw_preview, picked_files
 from .scene.photos import add_photos, photo_file
 from .scene.provenance import record_import
 from .scene.reading_properties import ReadingProperties
 from .scene.scan_object import add_scan_object
-from .scene.texts import told
+from .scene.texts import report_text
 from .scene.viewpoint import show_imported
 from .window.folders import open_in, was_picked
 from .window.jobs import JobOperator
@@ -211,12 +211,16 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             doubts += warnings
             if images := add_photos(context, file):
                 name, count = Path(file.entry["path"]).name, len(images)
-                inside.append(told("Photos inside {name}, now on the list of photos: {count}", name=name, count=count))
+                inside.append(
+                    report_text("Photos inside {name}, now on the list of photos: {count}", name=name, count=count)
+                )
         for arrays, entry, inputs, warnings in scans:
             obj = add_scan_object(context, arrays)
             record_import(obj, entry, inputs, warnings)
             # Messages about the rest of the file are reported with its first scan.
-            tell(self, obj, told("Imported {name}", name=arrays.name), (*warnings, *doubts), details=inside)
+            show_result(
+                self, obj, report_text("Imported {name}", name=arrays.name), (*warnings, *doubts), details=inside
+            )
             added.append(obj)
             inside, doubts = [], []
         for obj in added:

@@ -10,9 +10,9 @@ from bpy_extras.io_utils import ImportHelper
 from ..reflcolor_addon.files.photo_files import PHOTO_SUFFIXES, photos_of
 from ..reflcolor_addon.messages import Message
 from .scene import polls
-from .scene.image_sides import show_image
+from .scene.editor_images import show_image
 from .scene.photos import add_photos, photo_file
-from .scene.texts import shown, told
+from .scene.texts import report_text, shown
 from .window.folders import open_in, was_picked
 from .window.jobs import JobOperator
 
@@ -67,7 +67,7 @@ class REFLCOLOR_OT_load_photo(JobOperator, bpy.types.Operator, ImportHelper):
             self.report({"WARNING"}, shown(warning))
         for image, photo in zip(images, (photo for file in files for photo in file.photos), strict=True):
             height, width = photo.rgb.shape[:2]
-            said = told("Loaded {name}: {width} x {height} pixels", name=image.name, width=width, height=height)
+            said = report_text("Loaded {name}: {width} x {height} pixels", name=image.name, width=width, height=height)
             self.report({"INFO"}, said)
         show_image(context, images[-1])
 

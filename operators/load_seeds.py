@@ -10,14 +10,14 @@ from ..reflcolor_addon.files.photo_files import photos_of
 from ..reflcolor_addon.seeds.seeds import Seeds
 from ..reflcolor_addon.seeds.seeds_file import find_photo
 from .scene import polls
-from .scene.notices import tell
+from .scene.notices import show_result
 from .scene.photo_colors import keep_observed
 from .scene.photos import add_photos, photo_file
 from .scene.provenance import record_seeds_file
 from .scene.reports import reported
 from .scene.scan_object import scan_of
 from .scene.seed_list import append_seeds
-from .scene.texts import told
+from .scene.texts import report_text
 
 
 class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
@@ -53,7 +53,7 @@ class REFLCOLOR_OT_load_seeds(bpy.types.Operator, ImportHelper):
             keep_observed(obj, None)
         append_seeds(obj, seeds)
         record_seeds_file(obj, self.filepath, others=not self.replace)
-        tell(self, obj, told("Loaded {count} seeds", count=len(seeds)), warnings, seeds)
+        show_result(self, obj, report_text("Loaded {count} seeds", count=len(seeds)), warnings, seeds)
         return {"FINISHED"}
 
 

@@ -11,7 +11,7 @@ from .scene.images import read_pixels
 from .scene.photo_colors import camera_image, cameras_of
 from .scene.photo_texture import show_texture
 from .scene.scan_object import COLORIZED, OBSERVED, PHOTO, colors_of, grid_indices, scan_reader, values_of
-from .scene.texts import told
+from .scene.texts import report_text
 from .window.jobs import JobOperator
 
 
@@ -58,16 +58,18 @@ class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
     def finish(self, context, pixels):
         obj = bpy.data.objects.get(self._object_name)
         if obj is None:
-            self.report({"WARNING"}, told("{name} is gone; its colors were dropped", name=self._object_name))
+            self.report({"WARNING"}, report_text("{name} is gone; its colors were dropped", name=self._object_name))
             return
         show_texture(obj, pixels)
         rows, columns = pixels.shape[:2]
         if self._missing:
-            lost = told(
+            lost = report_text(
                 "without the detail of {photos}: not among the images any more", photos=", ".join(self._missing)
             )
             self.report({"WARNING"}, lost)
-        said = told("{name} has a texture of {columns} x {rows} pixels", name=obj.name, columns=columns, rows=rows)
+        said = report_text(
+            "{name} has a texture of {columns} x {rows} pixels", name=obj.name, columns=columns, rows=rows
+        )
         self.report({"INFO"}, said)
 
 

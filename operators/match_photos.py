@@ -8,7 +8,7 @@ from ..reflcolor_addon.errors import SeedsError
 from ..reflcolor_addon.matching import draw_matches
 from .scene import polls
 from .scene.images import write_image
-from .scene.notices import tell, tell_together
+from .scene.notices import show_result, show_results
 from .scene.photo_colors import keep_cameras, keep_observed
 from .scene.photo_list import listed_images
 from .scene.photos import photo_of
@@ -16,7 +16,7 @@ from .scene.provenance import record_matching
 from .scene.scan_object import SHIFT, grid_indices, own_image, scan_reader
 from .scene.seed_list import append_seeds, remove_seeds, seeds_of
 from .scene.setting_properties import MATCH_NAMES, MatchArguments, core_settings, keep_used_settings
-from .scene.texts import shown, told
+from .scene.texts import report_text, shown
 from .scene.verdicts import keep_verdicts
 from .window.jobs import JobOperator
 
@@ -34,7 +34,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
         return polls.has_own_scan(cls, context) and polls.has_photos(cls, context)
 
     def prepare(self, context):
-        objects, self._left_out = polls.fitting_scans(context, polls.foreign_seeds)
+        objects, self._skipped = polls.fitting_scans(context, polls.foreign_seeds)
         images = listed_images(context.scene)
         # The user may rename a photo while the work goes on.
         self._photos = {image.name: image.session_uid for image in images}
@@ -67,7 +67,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
         for job, picture in results:
             obj = bpy.data.objects.get(job.name)
             if obj is None or not obj.reflcolor.rows:
-                self.report({"WARNING"}, told("{name} is gone; its seeds were dropped", name=job.name))
+                self.report({"WARNING"}, report_text("{name} is gone; its seeds were dropped", name=job.name))
                 continue
             # Raises if a mesh cannot take the observed colors, before any scan is changed.
             grid_indices(obj)
@@ -85,13 +85,13 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
             self._tell(obj, job.matching, one_of_several=len(results) > 1)
             done.append((obj, job.matching))
         counts = ", ".join(f"{obj.name} ({len(matching.seeds)})" for obj, matching in done)
-        together = told("Found seeds for {count} scans: {counts}", count=len(done), counts=counts)
-        tell_together(self, [obj for obj, _ in done], together, self._left_out)
+        together = report_text("Found seeds for {count} scans: {counts}", count=len(done), counts=counts)
+        show_results(self, [obj for obj, _ in done], together, self._skipped)
 
     def _tell(self, obj, matching, *, one_of_several):
-        said = told("Found {count} seeds for {name}", count=len(matching.seeds), name=obj.name)
+        said = report_text("Found {count} seeds for {name}", count=len(matching.seeds), name=obj.name)
         details = [f"{photo.name}: {shown(photo.note)}" for photo in matching.photos]
-        tell(self, obj, said, matching.warnings, details=details, one_of_several=one_of_several)
+        show_result(self, obj, said, matching.warnings, details=details, one_of_several=one_of_several)
 
 
 def take_over_seeds(obj, seeds, images=None):

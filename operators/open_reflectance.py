@@ -3,7 +3,7 @@
 import bpy
 
 from .scene import polls
-from .scene.image_sides import show_image
+from .scene.editor_images import show_image
 
 
 class REFLCOLOR_OT_open_reflectance(bpy.types.Operator):

@@ -4,8 +4,8 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..reflcolor_addon.view.picking import clamped_point
-from .scene.image_sides import event_side
-from .scene.texts import told
+from .scene.editor_images import event_side
+from .scene.texts import report_text
 
 
 class REFLCOLOR_OT_pick(bpy.types.Operator):
@@ -32,7 +32,7 @@ class REFLCOLOR_OT_pick(bpy.types.Operator):
             self.report({"INFO"}, "Import a scan, and show its reflectance image or a photo here")
             return {"CANCELLED"}
         if context.view_layer.objects.get(side.obj.name) is None:
-            self.report({"WARNING"}, told("{name} is not in this view layer", name=side.obj.name))
+            self.report({"WARNING"}, report_text("{name} is not in this view layer", name=side.obj.name))
             return {"CANCELLED"}
         side.activate(context)
         hit = side.hit(place) if self.act != "sample" else None

@@ -7,10 +7,10 @@ from mathutils import Vector
 
 from ..reflcolor_addon.view.picking import corner_nearest, nearest_within
 from .scene import polls
-from .scene.image_sides import HIT_RADIUS
+from .scene.editor_images import HIT_RADIUS
 from .scene.scan_object import seed_vertices
 from .scene.seed_arrays import seed_arrays
-from .scene.texts import told
+from .scene.texts import report_text
 
 
 class REFLCOLOR_OT_pick_in_view(bpy.types.Operator):
@@ -35,7 +35,7 @@ class REFLCOLOR_OT_pick_in_view(bpy.types.Operator):
             return bpy.ops.reflcolor.select_seed("EXEC_DEFAULT", True, index=hit)
         vertex = _vertex_at(context, obj, place)
         if vertex is None:
-            self.report({"INFO"}, told("Click on {name}", name=obj.name))
+            self.report({"INFO"}, report_text("Click on {name}", name=obj.name))
             return {"CANCELLED"}
         pixel = {name: obj.data.attributes[f"grid_{name}"].data[vertex].value for name in ("row", "col")}
         return bpy.ops.reflcolor.place_seed("EXEC_DEFAULT", True, **pixel)

@@ -6,7 +6,7 @@ from bpy.props import BoolProperty
 from .scene import polls
 from .scene.reports import reported
 from .scene.seed_list import SeedPlace, place_seed, snapped_place
-from .scene.texts import told
+from .scene.texts import report_text
 from .window.live_update import redraw_seeds
 
 
@@ -33,7 +33,7 @@ class REFLCOLOR_OT_place_seed(SeedPlace, bpy.types.Operator):
         place_seed(context, obj, row, col)
         redraw_seeds(obj)
         if (row, col) != (self.row, self.col):
-            self.report({"INFO"}, told("No return there; placed at row {row}, column {col}", row=row, col=col))
+            self.report({"INFO"}, report_text("No return there; placed at row {row}, column {col}", row=row, col=col))
         return {"FINISHED"}
 
 

@@ -7,7 +7,7 @@ from bpy_extras.io_utils import ExportHelper
 from .scene import polls
 from .scene.reports import reported
 from .scene.seed_list import seeds_of
-from .scene.texts import told
+from .scene.texts import report_text
 
 
 class REFLCOLOR_OT_save_seeds(bpy.types.Operator, ExportHelper):
@@ -28,7 +28,7 @@ class REFLCOLOR_OT_save_seeds(bpy.types.Operator, ExportHelper):
     def execute(self, context):
         seeds = seeds_of(polls.scan_object(context))
         seeds.save(self.filepath)
-        self.report({"INFO"}, told("Saved {count} seeds to {path}", count=len(seeds), path=self.filepath))
+        self.report({"INFO"}, report_text("Saved {count} seeds to {path}", count=len(seeds), path=self.filepath))
         return {"FINISHED"}
 
 

@@ -8,7 +8,7 @@ from .match_photos import take_over_seeds
 from .scene import polls
 from .scene.reports import reported
 from .scene.scan_object import SCANNED, scan_of
-from .scene.texts import tip, told
+from .scene.texts import report_text, tip
 from .window.live_update import redraw_seeds
 
 
@@ -36,7 +36,9 @@ class REFLCOLOR_OT_seeds_from_color(bpy.types.Operator):
         seeds = seeds_from_color(scan_of(obj, colors=SCANNED), self.count)
         take_over_seeds(obj, seeds)
         redraw_seeds(obj)
-        self.report({"INFO"}, told("Took {count} seeds from the colors of {name}", count=len(seeds), name=obj.name))
+        self.report(
+            {"INFO"}, report_text("Took {count} seeds from the colors of {name}", count=len(seeds), name=obj.name)
+        )
         return {"FINISHED"}
 
 

@@ -6,8 +6,8 @@ from bpy.props import EnumProperty
 
 from ..reflcolor_addon.view.picking import box_outline, inside_outline
 from .overlays.drawing import draw_outline
+from .scene.editor_images import event_side
 from .scene.editors import redraw_editors, select_only
-from .scene.image_sides import event_side
 from .scene.seed_list import selected_seeds
 from .window.pointer import PointerOperator, object_named
 

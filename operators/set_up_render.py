@@ -9,7 +9,7 @@ from .scene.properties import scene_picture
 from .scene.render import fillable_scans, look_through_camera, set_up_picture
 from .scene.scan_object import grid_indices
 from .scene.shown_surface import surface_maker
-from .scene.texts import told
+from .scene.texts import report_text
 from .window.jobs import JobOperator
 
 
@@ -46,7 +46,7 @@ class REFLCOLOR_OT_set_up_render(JobOperator, bpy.types.Operator):
     def finish(self, context, surfaces):
         obj = bpy.data.objects.get(self._name)
         if obj is None or not obj.reflcolor.rows:
-            self.report({"WARNING"}, told("{name} is gone; the render was not set up", name=self._name))
+            self.report({"WARNING"}, report_text("{name} is gone; the render was not set up", name=self._name))
             return
         for name in surfaces:
             # Raises where the mesh cannot take a surface, before anything is changed.

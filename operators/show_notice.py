@@ -4,8 +4,8 @@ import bpy
 from bpy.props import IntProperty
 
 from .scene import polls
+from .scene.editor_images import side_in
 from .scene.editors import redraw_editors
-from .scene.image_sides import side_in
 from .scene.notices import seed_of
 from .scene.texts import tip
 

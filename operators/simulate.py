@@ -9,7 +9,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..reflcolor_addon.simulation.virtual_scanner import ScannerModel
 from .scene.simulation import Simulation, leveled_pose, photo_cameras, simulation_steps
-from .scene.texts import told
+from .scene.texts import report_text
 from .window.jobs import JobOperator, StepJob
 
 _DEFAULT = ScannerModel()
@@ -132,7 +132,7 @@ class REFLCOLOR_OT_simulate(JobOperator, bpy.types.Operator, ExportHelper):
         return simulation_steps(context.scene, self._simulation(context))
 
     def finish(self, _context, _result):
-        self.report({"INFO"}, told("Simulated {path}", path=self.filepath))
+        self.report({"INFO"}, report_text("Simulated {path}", path=self.filepath))
 
     def _simulation(self, context):
         scene = context.scene

@@ -3,7 +3,7 @@
 import bpy
 
 from ..operators.overlays.wipe import overlay_image
-from ..operators.scene.image_sides import scan_of_image
+from ..operators.scene.editor_images import scan_of_image
 from .step import Step, in_images
 
 

@@ -61,9 +61,9 @@ class Seeds(Step):
         buttons.operator("reflcolor.clear_seeds", text="", icon="TRASH")
         if 0 <= state.active_seed < len(state.seeds):
             seed = state.seeds[state.active_seed]
-            told = label("Row {row}, column {col}", row=seed.row, col=seed.col)
+            place = label("Row {row}, column {col}", row=seed.row, col=seed.col)
             layout.label(
-                text=told if seed.has_color else label("{place}: choose its color", place=told), translate=False
+                text=place if seed.has_color else label("{place}: choose its color", place=place), translate=False
             )
         draw_color(layout, context.scene.reflcolor)
         row = layout.row(align=True)

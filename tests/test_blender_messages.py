@@ -100,7 +100,7 @@ def test_thousands_of_warnings_are_cut_and_counted(wall, notices):
             """Nobody reads it."""
 
     obj = wall.context.active_object
-    notices.tell(Silent(), obj, "Done", [f"line {number}" for number in range(1000)])
+    notices.show_result(Silent(), obj, "Done", [f"line {number}" for number in range(1000)])
     assert len(obj.reflcolor.notices) == notices.MAX_NOTICES + 2
     assert obj.reflcolor.notices[-1].text == "800 more warnings"
 

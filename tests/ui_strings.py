@@ -10,7 +10,7 @@ from reflcolor_addon.seeds.sources import EVIDENCE
 ROOT = Path(__file__).resolve().parent.parent
 ANY, OPERATOR = "*", "Operator"
 # What takes a text to look up as its first argument.
-_LOOKUPS = {"label", "told", "tip", "n_"}
+_LOOKUPS = {"label", "report_text", "tip", "n_"}
 # What takes one as `text`, and in which context Blender looks it up.
 _LAYOUT = {
     "label": ANY,

@@ -8,7 +8,7 @@ import numpy as np
 from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.view.picking import mark_spacing
 from ..scene import polls
-from ..scene.image_sides import side_in
+from ..scene.editor_images import side_in
 from ..scene.scan_object import seed_vertices
 from ..scene.seed_arrays import seed_arrays
 from ..window import seed_picking

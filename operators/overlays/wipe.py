@@ -7,8 +7,8 @@ import gpu
 from bpy.props import BoolProperty, FloatProperty
 from gpu_extras.batch import batch_for_shader
 
+from ..scene.editor_images import side_in
 from ..scene.editors import redraw_editors
-from ..scene.image_sides import side_in
 
 _handles = []
 
@@ -86,7 +86,7 @@ def overlay(obj, shown, wipe):
 
 
 def scan_side(context):
-    """Return the Side that the Image Editor of the context shows, if that is a scan's own image; else None."""
+    """Return the EditorImage that the Image Editor of the context shows, if that is a scan's own image; else None."""
     side = side_in(context.area, context.region, context)
     return side if side is not None and side.is_scan else None
 

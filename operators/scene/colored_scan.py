@@ -35,7 +35,7 @@ def colored_scans_reader(objects):
 
 
 def _reader(obj):
-    """A function that makes the ColoredScan of an object, told how to find out whether a file is as it was."""
+    """A function that makes the ColoredScan of an object; it is given the check whether a file is unchanged."""
     read_scan, colors, place = scan_reader(obj), colors_of(obj, shown_in_renders(obj)), grid_indices(obj)
     record, shape = import_record(obj), (obj.reflcolor.rows, obj.reflcolor.cols)
     shift = np.array(obj.get(SHIFT, (0, 0, 0)), np.float64)

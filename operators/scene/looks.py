@@ -26,13 +26,13 @@ from .scan_object import (
     show_colors,
     values_of,
 )
-from .texts import told
+from .texts import report_text
 
 LEGEND = "reflcolor_legend"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Look:
+class DisplayMode:
     """One thing to look at.
 
     Parameters
@@ -75,7 +75,7 @@ class Look:
 
 
 LOOKS = {
-    "gray": Look(
+    "gray": DisplayMode(
         title="Reflectance",
         description="The gray of the reflectance, as the scanner measured it; renders and exports take it, too",
         icon="IMAGE_ZDEPTH",
@@ -83,7 +83,7 @@ LOOKS = {
         missing=n_("Import it again"),
         result=True,
     ),
-    "colorized": Look(
+    "colorized": DisplayMode(
         title="Colorized",
         description="The colors that were spread from the seeds; renders and exports take them, too",
         icon="COLOR",
@@ -91,14 +91,14 @@ LOOKS = {
         missing=n_("Colorize first"),
         result=True,
     ),
-    "scanned": Look(
+    "scanned": DisplayMode(
         title="Scanned Color",
         description="The colors that came with the scan",
         icon="CAMERA_DATA",
         colors=SCANNED,
         missing=n_("None in the scan"),
     ),
-    "confidence": Look(
+    "confidence": DisplayMode(
         title="Confidence",
         description="How far to trust each color: 1 at the seeds, falling with the distance from them",
         icon="CHECKMARK",
@@ -108,7 +108,7 @@ LOOKS = {
         gradient="viridis",
         limits=(0.0, 1.0),
     ),
-    "nearest_seed": Look(
+    "nearest_seed": DisplayMode(
         title="Nearest Seed",
         description="The regions that are nearest to each seed, in a color of their own that is not the seed's",
         icon="STICKY_UVS_LOC",
@@ -119,7 +119,7 @@ LOOKS = {
         region=n_("Seed {number}"),
         unknown=n_("No seed reaches"),
     ),
-    "observed": Look(
+    "observed": DisplayMode(
         title="Observed",
         description="Where a color is one that a verified photo saw there, 1, and where it is inferred from others, 0",
         icon="HIDE_OFF",
@@ -129,7 +129,7 @@ LOOKS = {
         gradient="viridis",
         limits=(0.0, 1.0),
     ),
-    "photo": Look(
+    "photo": DisplayMode(
         title="Photo",
         description="Which photo saw each color, in a color of its own that is not the photo's; gray where none did",
         icon="IMAGE_DATA",
@@ -140,7 +140,7 @@ LOOKS = {
         region=n_("Photo {number}"),
         unknown=n_("Inferred"),
     ),
-    "range": Look(
+    "range": DisplayMode(
         title="Range",
         description="The distance from the scanner",
         icon="DRIVER_DISTANCE",
@@ -150,7 +150,7 @@ LOOKS = {
         gradient="turbo",
         unit="m",
     ),
-    "error": Look(
+    "error": DisplayMode(
         title="Error",
         description="The difference from the true colors, where they are known, in CIEDE2000",
         icon="DRIVER_ROTATIONAL_DIFFERENCE",
@@ -186,7 +186,7 @@ def show_look(obj, identifier):
         If what it is made of is missing.
     """
     if reason := why_not(obj, identifier):
-        raise ScanError(f"{obj.name}: {told(reason)}")
+        raise ScanError(f"{obj.name}: {report_text(reason)}")
     look = LOOKS[identifier]
     if look.values is not None:
         _paint(obj, look)

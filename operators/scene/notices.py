@@ -4,7 +4,7 @@ import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
 
 from ...reflcolor_addon.messages import about_scan, value_of
-from .texts import shown, told
+from .texts import report_text, shown
 
 # More than anyone reads; the first ones show what is wrong.
 MAX_NOTICES = 200
@@ -19,7 +19,7 @@ class ReflcolorNotice(bpy.types.PropertyGroup):
     col: IntProperty(name="Column", description="Column of the seed that is meant; -1 for none", default=-1)
 
 
-def tell(operator, obj, result, warnings, seeds=None, details=(), *, one_of_several=False):
+def show_result(operator, obj, result, warnings, seeds=None, details=(), *, one_of_several=False):
     """Report what came of an operation, and keep it with the object in place of what was kept before.
 
     Parameters
@@ -51,26 +51,26 @@ def tell(operator, obj, result, warnings, seeds=None, details=(), *, one_of_seve
             notice.row, notice.col = (int(places[number - 1]) for places in (seeds.rows, seeds.cols))
     if len(warnings) > MAX_NOTICES:
         notice = notices.add()
-        notice.text = told("{count} more warnings", count=len(warnings) - MAX_NOTICES)
+        notice.text = report_text("{count} more warnings", count=len(warnings) - MAX_NOTICES)
         notice.warning = True
 
 
-def tell_together(operator, objects, result, left_out):
-    """Report what came of an operation on several scans, after each was told; it ends with what was left out.
+def show_results(operator, objects, result, skipped):
+    """Report what came of an operation on several scans, after those of each; at the end, the scans that were skipped.
 
     Parameters
     ----------
     operator : bpy.types.Operator
     objects : sequence of bpy.types.Object
-        Those that were worked on; what was left out is kept with them.
+        Those that were worked on; the skipped ones are noted with them.
     result : str
         Reported where they are several.
-    left_out : sequence of str
+    skipped : sequence of str
         One line for each scan that was selected but not worked on.
     """
     if len(objects) > 1:
         operator.report({"INFO"}, result)
-    for line in left_out:
+    for line in skipped:
         operator.report({"WARNING"}, line)
         for obj in objects:
             notice = obj.reflcolor.notices.add()

@@ -4,7 +4,7 @@ import bpy
 
 from .photo_list import photo_settings
 from .scan_object import COLORIZED
-from .texts import tip, told
+from .texts import report_text, tip
 
 
 def nothing_missing(cls, missing):
@@ -115,8 +115,10 @@ def scan_objects(context):
 def fitting_scans(context, missing):
     """Return those of `scan_objects` that ``missing(obj)`` has nothing to say of, and a warning for each other one."""
     found = [(obj, missing(obj)) for obj in scan_objects(context)]
-    left_out = [told("{name} was left out: {reason}", name=obj.name, reason=reason) for obj, reason in found if reason]
-    return [obj for obj, reason in found if not reason], left_out
+    skipped = [
+        report_text("{name} was left out: {reason}", name=obj.name, reason=reason) for obj, reason in found if reason
+    ]
+    return [obj for obj, reason in found if not reason], skipped
 
 
 def _is_scan(obj):

@@ -22,7 +22,7 @@ def label(template, **parts):
     return pgettext_iface(template).format(**parts)
 
 
-def told(template, **parts):
+def report_text(template, **parts):
     """Return a text for reports."""
     return pgettext_rpt(template).format(**parts)
 

@@ -16,7 +16,7 @@ class DragSeeds:
 
     Parameters
     ----------
-    side : Side
+    side : EditorImage
         What the pointer is over.
     hit : int
         The seed that was taken hold of.

@@ -7,7 +7,7 @@ import bpy
 
 from ...reflcolor_addon.errors import Cancelled
 from ..scene.reports import reported
-from ..scene.texts import label, shown, told
+from ..scene.texts import label, report_text, shown
 
 # Seconds between two updates of a job.
 _INTERVAL_S = 0.1
@@ -181,7 +181,10 @@ class JobOperator:
         if bpy.app.background or context.window is None:
             return self.run_blocking(context)
         if running() is not None:
-            self.report({"WARNING"}, told("{name} is still running; press ESC to cancel it", name=told(running().name)))
+            self.report(
+                {"WARNING"},
+                report_text("{name} is still running; press ESC to cancel it", name=report_text(running().name)),
+            )
             return {"CANCELLED"}
         self._job = self.job_type(self.job_name, self.prepare(context))
         _running.append(self._job)
@@ -213,7 +216,7 @@ class JobOperator:
     def _outcome(self, context):
         error = self._job.error
         if isinstance(error, Cancelled) or (error is None and self._job.stopping):
-            self.report({"INFO"}, told("{name} cancelled; nothing was changed", name=told(self.job_name)))
+            self.report({"INFO"}, report_text("{name} cancelled; nothing was changed", name=report_text(self.job_name)))
             return {"CANCELLED"}
         if error is not None:
             raise error

@@ -115,7 +115,7 @@ def _fill(number, object_name):
 
 
 def _show_tab(area):
-    """Bring the steps to the front of a sidebar; it can be told once it was drawn."""
+    """Bring the steps to the front of a sidebar; possible once it was drawn."""
     region = next(region for region in area.regions if region.type == "UI")
     try:
         region.active_panel_category = "Reflectance"

@@ -12,7 +12,7 @@ class StrokeSeeds:
     Parameters
     ----------
     context : bpy.types.Context
-    side : Side
+    side : EditorImage
         The scan's image that the pointer is over.
     place : (x, y)
         Of the region.

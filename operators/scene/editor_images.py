@@ -17,7 +17,7 @@ HIT_RADIUS = 10
 
 
 @dataclass(frozen=True)
-class Side:
+class EditorImage:
     """One image of a pair, as an editor shows it.
 
     Parameters
@@ -66,7 +66,7 @@ class Side:
 
 
 def side_in(area, region, context):
-    """Return the Side that an Image Editor's region shows; None if it shows neither a scan nor a photo."""
+    """Return the EditorImage that an Image Editor's region shows; None if it shows neither a scan nor a photo."""
     image = area.spaces.active.image if area.type == "IMAGE_EDITOR" else None
     if image is None or not min(image.size):
         return None
@@ -74,7 +74,7 @@ def side_in(area, region, context):
     obj = owner or polls.scan_object(context)
     if obj is None:
         return None
-    return Side(owner is not None, obj, image, _view(region, image))
+    return EditorImage(owner is not None, obj, image, _view(region, image))
 
 
 def scan_of_image(image, context):
@@ -107,7 +107,7 @@ def show_image(context, image):
 
 
 def event_side(context):
-    """Return the Side under the pointer; None if it is over another region than an Image Editor's image."""
+    """Return the EditorImage under the pointer; None if it is over another region than an Image Editor's image."""
     if context.area is None or context.region is None or context.region.type != "WINDOW":
         return None
     return side_in(context.area, context.region, context)
