@@ -66,8 +66,8 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
         refresh_look(obj)
         mean, percentile = (figures["as_is"][f"ciede2000_{name}"] for name in ("mean", "p95"))
         said = report_text(
-            "{name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of {count} vertices; "
-            "with the true luminance {alone:.2f} in the mean",
+            "{name}: mean CIEDE2000 {mean:.2f}, below {percentile:.2f} at 95 % of {count} vertices; "
+            "with the true luminance {alone:.2f}",
             name=obj.name,
             mean=mean,
             percentile=percentile,

@@ -57,7 +57,7 @@ def test_mean_and_percentile_are_reported(colorized, scan_file, capfd):
     colorized.ops.reflcolor.evaluate()
     found = values(colorized.context.active_object, "error")
     assert found[found >= 0].mean() == pytest.approx(figures["ciede2000_mean"], abs=0.1)
-    said = re.search(r"wall: CIEDE2000 ([\d.]+) in the mean, below ([\d.]+) at 95 % of 58", capfd.readouterr().out)
+    said = re.search(r"wall: mean CIEDE2000 ([\d.]+), below ([\d.]+) at 95 % of 58", capfd.readouterr().out)
     reported = [float(number) for number in said.groups()]
     assert reported == pytest.approx([figures["ciede2000_mean"], figures["ciede2000_p95"]], abs=0.3)
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from blender_cli import blender_ext
 from build_extension import DIST, PLATFORMS, PYTHONS, ROOT, BuildError, build, link_or_copy, sha256
 
+sys.path.insert(0, str(ROOT))
 from reflcolor_addon.version import __version__
 
 RELEASE = DIST / "release"

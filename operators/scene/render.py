@@ -14,7 +14,7 @@ from .shown_surface import add_surface, has_surface, remove_surface, switch_surf
 from .viewpoint import covered_by_sidebar, view_of
 
 # Custom properties of objects: added for a picture; hidden in pictures, but not by the user.
-_ADDED, _LEFT_OUT = "reflcolor_for_render", "reflcolor_skipped"
+_ADDED, _LEFT_OUT = "reflcolor_for_render", "reflcolor_left_out"
 # Background, linear light: darker than white walls, lighter than dark floors.
 _BACKGROUND = (0.045, 0.047, 0.05, 1.0)
 # The light comes from the left, above and behind the viewer.

@@ -182,8 +182,8 @@ _REPORTS = {
     "{name} is not in this view layer": "{name} ist nicht in dieser Ansichtsebene",
     "{name} is still running; press ESC to cancel it": "{name} läuft noch; ESC bricht es ab",
     "{name} was left out: {reason}": "{name} wurde ausgelassen: {reason}",
-    "{name}: CIEDE2000 {mean:.2f} in the mean, below {percentile:.2f} at 95 % of {count} vertices; "
-    "with the true luminance {alone:.2f} in the mean": (
+    "{name}: mean CIEDE2000 {mean:.2f}, below {percentile:.2f} at 95 % of {count} vertices; "
+    "with the true luminance {alone:.2f}": (
         "{name}: CIEDE2000 {mean:.2f} im Mittel, unter {percentile:.2f} an 95 % von {count} Vertices; "
         "mit der wahren Helligkeit {alone:.2f} im Mittel"
     ),

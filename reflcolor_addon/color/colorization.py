@@ -36,7 +36,7 @@ class Colorization:
         change, over all pixels (``max``) and over 999 of 1,000 (``p99.9``); where that number was left to the program,
         ``doubled_levels``: how much 95 of 100 pixels change at most when half of it is doubled; with kriging, the
         share that it got in the chrominance (``kriging``) and, if it is spread, in the luminance
-        (``kriging_of_luminance``), in the mean over all pixels that a seed reaches.
+        (``kriging_of_luminance``), averaged over all pixels that a seed reaches.
     """
 
     rgb: np.ndarray

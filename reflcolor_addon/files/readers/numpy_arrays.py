@@ -60,7 +60,7 @@ def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, ca
     return [scan_of_columns(path, columns, options=options, shape=shape)]
 
 
-def array_of(path, member, cancelled=None):
+def array_of(path, member):
     """Return one array of a .npy or .npz by its name; the only one where no name is given.
 
     Raises
