@@ -47,7 +47,7 @@ BLENDER_ROOMS = {
     "panels": {"operators", "operators.scene", "operators.overlays", "operators.window"},
 }
 
-_BUNDLED = {"cv2", "lazy_loader", "scipy", "skimage", "pye57", "OpenEXR"}
+_BUNDLED = {"cv2", "lazy_loader", "scipy", "skimage", "pye57", "OpenEXR", "laspy", "lazrs"}
 _ROW = re.compile(r"^\| `([\w/]+)` \| [^|]+ \| ([^|]*?) ?\|$", re.MULTILINE)
 
 

@@ -16,7 +16,7 @@ import pytest
 from small_scans import random_scan
 
 from reflcolor_addon.errors import Cancelled, ScanError
-from reflcolor_addon.files.confined import child, confinement, python_program, windows_job
+from reflcolor_addon.files.confined import child, confinement, python_program, reading, windows_job
 from reflcolor_addon.files.readers import e57_columns, read_scans
 from reflcolor_addon.files.writers import write_e57
 
@@ -147,14 +147,14 @@ def test_a_name_that_is_no_text_opens(scan_file):
 
 def test_the_file_that_was_looked_at_is_the_one_that_is_read(scan_file, monkeypatch):
     """The child gets what is open, not a name that may show another file by now."""
-    start = e57_columns.Child
+    start = reading.Child
 
     def replaced(*arguments, **options):
         scan_file.unlink()
         scan_file.write_bytes(b"another")
         return start(*arguments, **options)
 
-    monkeypatch.setattr(e57_columns, "Child", replaced)
+    monkeypatch.setattr(reading, "Child", replaced)
     assert read_scans(scan_file)[0].shape == (6, 10)
 
 
@@ -349,7 +349,7 @@ def test_on_windows_a_child_starts_without_a_window_and_opens_files_by_name(wind
     assert options["creationflags"] == 0x08000000
     assert not options.keys() & {"pass_fds", "start_new_session"}
     monkeypatch.delattr(os, "memfd_create", raising=False)
-    number, shown = e57_columns.shared_file(64)
+    number, shown = reading.shared_file(64)
     try:
         assert Path(shown).stat().st_size == 64
     finally:

@@ -9,8 +9,9 @@ from e57_samples import with_valid_checksums, write_e57
 from sample_scans import intensity_of, room_points
 
 from reflcolor_addon.errors import Cancelled, ScanError
+from reflcolor_addon.files.confined import reading
 from reflcolor_addon.files.e57_pages import HEADER, PAGE, PAYLOAD, contents
-from reflcolor_addon.files.readers import e57_columns, read_scans
+from reflcolor_addon.files.readers import read_scans
 from reflcolor_addon.files.readers.e57_xml import parse_xml
 
 POINTS = room_points()
@@ -47,7 +48,7 @@ def native(monkeypatch):
         started.append(arguments)
         raise AssertionError("native code was to see this file")
 
-    monkeypatch.setattr(e57_columns, "Child", start)
+    monkeypatch.setattr(reading, "Child", start)
     return started
 
 

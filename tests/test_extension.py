@@ -109,7 +109,7 @@ def test_bundled_packages_come_from_the_zip(installed_blender, request):
     if not request.config.getoption("--blender"):
         pytest.skip("needs --blender: other tests of this process have them from elsewhere already")
     installed = Path(installed_blender.utils.user_resource("EXTENSIONS"))
-    for name in ("cv2", "lazy_loader", "pye57", "pyquaternion", "scipy", "skimage"):
+    for name in ("cv2", "laspy", "lazrs", "lazy_loader", "pye57", "pyquaternion", "scipy", "skimage"):
         assert Path(importlib.import_module(name).__file__).is_relative_to(installed), name
 
 

@@ -15,7 +15,18 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 
 EXTENSION = "bl_ext.user_default.reflcolor"
-BUNDLED = ("OpenEXR", "cv2", "lazy_loader", "pye57", "pyquaternion", "reflcolor_kernel", "scipy", "skimage")
+BUNDLED = (
+    "OpenEXR",
+    "cv2",
+    "laspy",
+    "lazrs",
+    "lazy_loader",
+    "pye57",
+    "pyquaternion",
+    "reflcolor_kernel",
+    "scipy",
+    "skimage",
+)
 
 
 class _BundledOnly(MetaPathFinder):

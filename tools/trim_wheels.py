@@ -1,6 +1,7 @@
 """Takes out of the bundled wheels what no program uses (tools/check_zip.py shows what that was).
 
-Left out are the tests of the packages, scikit-image's sample images, and the symbols for debuggers in Linux libraries.
+Left out are the tests of the packages, scikit-image's sample images, Cython sources and type stubs of compiled modules,
+and the symbols for debuggers in Linux libraries.
 Nothing that can be imported or called is taken away: Blender shares a package among all extensions that bring it. Each
 trimmed wheel has the build tag `0trimmed`, so that Blender prefers a whole wheel of the same version where another
 extension has one. What is left is compressed by libdeflate, whose bytes depend on its pinned version alone.
@@ -18,9 +19,10 @@ from pathlib import Path
 import deflate
 
 BUILD_TAG = "0trimmed"
-# Beyond this level libdeflate takes twice the time for a thousandth of the size.
-LEVEL = 10
-LEFT_OUT = re.compile(r"(^|/)tests/|^skimage/data/.*\.(?!pyi?$)[^.]+$")
+LEVEL = 12
+LEFT_OUT = re.compile(
+    r"(^|/)tests/|^skimage/data/.*\.(?!pyi?$)[^.]+$|^scipy/.*/_(c?y?test|test_\w+)\.[^/]*(so|pyd)$|^(scipy|cv2)/.*\.(pyx|pyi)$"
+)
 
 
 def trim_wheel(wheel: Path, folder: Path) -> Path:

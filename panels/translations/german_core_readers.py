@@ -33,9 +33,9 @@ _E57 = {
     "{file}: {size} bytes long, but its header says {length}; the file is damaged": (
         "{file}: {size} Bytes lang, aber ihr Kopf sagt {length}; die Datei ist beschädigt"
     ),
-    "cannot be read: E57 is read by a Python program of its own, and none was found beside Blender; "
+    "cannot be read: {kind} is read by a Python program of its own, and none was found beside Blender; "
     "export the scan as PTX": (
-        "kann nicht gelesen werden: E57 liest ein eigenes Python-Programm, und neben Blender ist keines zu finden; "
+        "kann nicht gelesen werden: {kind} liest ein eigenes Python-Programm, und neben Blender ist keines zu finden; "
         "den Scan als PTX exportieren"
     ),
     "takes longer to read, or more memory, than its size explains; export it again, or as PTX": (
@@ -44,11 +44,11 @@ _E57 = {
     "was not read on for {detail}; see whether its disk answers, or export it again": (
         "wurde seit {detail} nicht weiter gelesen; prüfen, ob der Datenträger antwortet, oder neu exportieren"
     ),
-    "what reads E57 answered what makes no sense; export the file again": (
-        "das Programm, das E57 liest, gab eine unsinnige Antwort; die Datei neu exportieren"
+    "what reads {kind} answered what makes no sense; export the file again": (
+        "das Programm, das {kind} liest, gab eine unsinnige Antwort; die Datei neu exportieren"
     ),
-    "what reads E57 crashed on it; the file is damaged, or made to do harm; export it again": (
-        "das Programm, das E57 liest, ist daran abgestürzt; die Datei ist beschädigt oder bösartig; neu exportieren"
+    "what reads {kind} crashed on it; the file is damaged, or made to do harm; export it again": (
+        "das Programm, das {kind} liest, ist daran abgestürzt; die Datei ist beschädigt oder bösartig; neu exportieren"
     ),
     "{file}: scan '{scan}': its row and column numbers span {rows:,} x {columns:,} pixels for {count:,} points; "
     "export it again as a gridded E57 or as PTX": (
@@ -71,6 +71,23 @@ _E57 = {
         "{file}: Scan '{scan}' ist unstrukturiert (seine Punkte haben weder rowIndex noch columnIndex); als PTX oder "
         "strukturiertes E57 exportieren, oder ein Raster über seine Punkte legen lassen: --grid angle, oder Raster "
         "nach Winkeln im Import-Dialog"
+    ),
+    "{file}: LAS needs laspy, which is missing; export its points as E57": (
+        "{file}: für LAS fehlt laspy; ihre Punkte als E57 exportieren"
+    ),
+    "{file}: LAZ needs lazrs, which is missing; export its points as LAS": (
+        "{file}: für LAZ fehlt lazrs; ihre Punkte als LAS exportieren"
+    ),
+    "{file}: not a LAS file (it does not begin with LASF)": "{file}: keine LAS-Datei (sie beginnt nicht mit LASF)",
+    "{file}: its header does not fit the file; it is damaged or cut short": (
+        "{file}: ihr Kopf passt nicht zur Datei; sie ist beschädigt oder abgeschnitten"
+    ),
+    "{file}: its header is damaged ({reason})": "{file}: ihr Kopf ist beschädigt ({reason})",
+    "{file}: does not say how its points are compressed; it is damaged": (
+        "{file}: sagt nicht, wie ihre Punkte komprimiert sind; sie ist beschädigt"
+    ),
+    "its points cannot be decompressed ({reason}); it is damaged or cut short: copy it again": (
+        "ihre Punkte lassen sich nicht entpacken ({reason}); sie ist beschädigt oder abgeschnitten: neu kopieren"
     ),
     "announces {count:,} points, more than the file can hold; it is damaged": (
         "kündigt {count:,} Punkte an, mehr, als die Datei enthalten kann; sie ist beschädigt"

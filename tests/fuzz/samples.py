@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from io import BytesIO
 
 import cv2
+import laspy
 import numpy as np
 import tifffile
 from e57_samples import write_e57 as write_raw_e57
@@ -52,6 +53,8 @@ def samples(folder):
         "PTX": [Sample("a.ptx", data, read_scans) for data in _ptx(folder)],
         "PCD": [Sample("a.pcd", data, read_scans) for data in _pcd()],
         "PLY": [Sample("a.ply", data, read_scans) for data in _ply(folder)],
+        "LAS": [Sample("a.las", data, _read_by_angle) for data in _las(folder, ".las")],
+        "LAZ": [Sample("a.laz", data, _read_by_angle) for data in _las(folder, ".laz")],
         "NumPy": [Sample(name, data, read_scans) for name, data in _numpy()],
         "text": [Sample(name, data, _read_by_angle) for name, data in _texts()],
         "image pair": [Sample("a.scan.json", data, read_scans) for data in _pairs(folder)],
@@ -129,6 +132,19 @@ def _pcd():
     packed = lzf(columns)
     sizes = np.array([len(packed), len(columns)], "<u4").tobytes()
     yield head + b"binary_compressed\n" + sizes + packed
+
+
+def _las(folder, suffix):
+    for version, point_format in (("1.2", 2), ("1.4", 7)):
+        header = laspy.LasHeader(version=version, point_format=point_format)
+        header.scales, header.offsets = np.full(3, 1e-4), np.zeros(3)
+        header.add_extra_dim(laspy.ExtraBytesParams(name="grid_row", type=np.uint16))
+        cloud = laspy.LasData(header)
+        cloud.x, cloud.y, cloud.z = POINTS.reshape(-1, 3).T
+        cloud.intensity = cloud.grid_row = np.arange(NAMES.size)
+        cloud.red, cloud.green, cloud.blue = COLOR.reshape(-1, 3).astype(np.uint16).T * 257
+        cloud.write(folder / f"sample{suffix}")
+        yield (folder / f"sample{suffix}").read_bytes()
 
 
 def _ply(folder):

@@ -10,13 +10,13 @@ from ...messages import Message
 from ...progress import IsCancelled, Progress
 from ...scan.scan import Scan
 from ..gate import opened
-from . import e57, image_pair, numpy_arrays, pcd, ply, ptx, text_cloud
+from . import e57, image_pair, las, numpy_arrays, pcd, ply, ptx, text_cloud
 from .formats import REFUSED
 from .options import AS_IT_IS, ReadOptions
 
 __all__ = ["FORMATS", "SCAN_SUFFIXES", "ReadOptions", "read_scans"]
 
-FORMATS = tuple(module.FORMAT for module in (ptx, e57, image_pair, pcd, ply, numpy_arrays, text_cloud))
+FORMATS = tuple(module.FORMAT for module in (ptx, e57, image_pair, pcd, ply, numpy_arrays, las, text_cloud))
 """What can be read; dialogs, help texts and docs/formats.md list it."""
 
 SCAN_SUFFIXES = tuple(suffix for kind in FORMATS for suffix in kind.suffixes)

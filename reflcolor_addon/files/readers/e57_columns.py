@@ -1,18 +1,14 @@
 """The points of an E57 file, read by a child process into memory that is shared with it."""
 
 import importlib.util
-import mmap
-import os
 import re
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import ScanError
-from ...messages import Message
-from ..confined.child import Child, ChildFailed
+from ..confined.reading import ConfinedReading
 from ..gate import size_of
 
 SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "e57_points.py"
@@ -31,14 +27,6 @@ _REASONS = {
     "ErrorBadFileLength": "its length is not what its header says; copy or export it again",
     "ErrorReadFailed": "it ends too early; copy or export it again",
     "ErrorMemory": "does not fit into memory",
-}
-_FAILURES = {
-    "no python": "cannot be read: E57 is read by a Python program of its own, and none was found beside Blender; "
-    "export the scan as PTX",
-    "crashed": "what reads E57 crashed on it; the file is damaged, or made to do harm; export it again",
-    "killed": "takes longer to read, or more memory, than its size explains; export it again, or as PTX",
-    "stalled": "was not read on for {detail}; see whether its disk answers, or export it again",
-    "garbage": "what reads E57 answered what makes no sense; export the file again",
 }
 
 
@@ -69,44 +57,27 @@ class E57Columns:
         self._path = path
         library, folders = library_of(path)
         size = max(1, words) * _WORD
-        limits = {
-            "memory": _BASE_BYTES + size + _BYTES_PER_XML_BYTE * xml_size,
-            "seconds": _BASE_SECONDS + size_of(file) // _BYTES_PER_SECOND,
-        }
-        columns, shown = shared_file(size)
-        try:
-            self._memory = mmap.mmap(columns, size)
-            handed_on = sys.platform != "win32"
-            with OneLine(path):
-                self._child = Child(
-                    SCRIPT, inherited=[file.fileno(), columns] if handed_on else [], cancelled=cancelled, **limits
-                )
-                self._child.ask(
-                    {
-                        "library": str(library),
-                        "folders": folders,
-                        "file": [file.fileno() if handed_on else None, str(path)],
-                        "columns": [columns if handed_on else None, shown],
-                        "written": size,
-                        **limits,
-                    }
-                )
-        finally:
-            os.close(columns)
-            self._shown = shown
+        self._reading = ConfinedReading(
+            SCRIPT,
+            "E57",
+            file,
+            path,
+            size=size,
+            limits={
+                "memory": _BASE_BYTES + size + _BYTES_PER_XML_BYTE * xml_size,
+                "seconds": _BASE_SECONDS + size_of(file) // _BYTES_PER_SECOND,
+            },
+            request={"library": str(library), "folders": folders},
+            reason_of=reason_of,
+            cancelled=cancelled,
+        )
 
     def __enter__(self):
-        try:
-            self._answer("ready")
-        except BaseException:
-            self.__exit__()
-            raise
+        self._reading.__enter__()
         return self
 
-    def __exit__(self, *_):
-        self._child.__exit__()
-        if self._shown:
-            Path(self._shown).unlink(missing_ok=True)
+    def __exit__(self, *error):
+        self._reading.__exit__(*error)
 
     def read(self, index, count, fields, report, vector=("points",)):
         """Read the points of a scan.
@@ -129,9 +100,8 @@ class E57Columns:
             Views of the shared memory: the next reading overwrites them.
         """
         report(0.0)
-        with OneLine(self._path):
-            self._child.ask({"scan": index, "vector": list(vector), "count": count, "fields": list(fields)})
-        while (found := self._answer("at", "done", most=count))[0] == "at":
+        self._reading.ask({"scan": index, "vector": list(vector), "count": count, "fields": list(fields)})
+        while (found := self._reading.answer("at", "done", most=count))[0] == "at":
             report(found[1] / count)
         if found[1] != count:
             raise ScanError(
@@ -141,37 +111,9 @@ class E57Columns:
                 count=count,
             )
         return {
-            name: np.frombuffer(self._memory, np.float64, count, _WORD * count * place)
+            name: np.frombuffer(self._reading.memory, np.float64, count, _WORD * count * place)
             for place, name in enumerate(fields)
         }
-
-    def _answer(self, *kinds, most=1):
-        """(kind, number) of the next answer, which is one of these."""
-        with OneLine(self._path):
-            answer = self._child.answer()
-            if isinstance(answer.get("error"), str):
-                raise ScanError("{file}: {reason}", file=self._path.name, reason=reason_of(answer["error"]))
-            for kind in kinds:
-                number = answer.get(kind)
-                if isinstance(number, int) and 0 <= number <= most:
-                    return kind, number
-            raise ChildFailed("garbage")
-
-
-class OneLine:
-    """Turns a child's failure within the block into a ScanError."""
-
-    def __init__(self, path):
-        self._path = path
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, _kind, error, _traceback):
-        if isinstance(error, ChildFailed):
-            problem = Message(_FAILURES[error.why], detail=error.detail)
-            raise ScanError("{file}: {problem}", file=self._path.name, problem=problem) from error
-        return False
 
 
 def library_of(path):
@@ -190,19 +132,6 @@ def library_of(path):
 
 def _is_native(path):
     return path.suffix in (".so", ".pyd")
-
-
-def shared_file(size):
-    """A file for the columns that goes with its last user: its number, and its path where a child needs that."""
-    if hasattr(os, "memfd_create"):
-        number, shown = os.memfd_create("reflcolor"), ""
-    else:
-        number, shown = tempfile.mkstemp(prefix="reflcolor-")
-        if sys.platform != "win32":
-            Path(shown).unlink()
-            shown = ""
-    os.ftruncate(number, size)
-    return number, shown
 
 
 def reason_of(text, unknown="cannot be read as E57"):

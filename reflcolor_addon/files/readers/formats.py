@@ -29,10 +29,6 @@ class Format:
     about: str
 
 
-_POINTS_ALONE = (
-    "LAS and LAZ know no rows and columns: export the scan as E57 (structured) or PTX, or its points as PTS, for "
-    "--grid angle"
-)
 REFUSED = {
     ".fls": "FARO: open it in FARO SCENE and export it as E57 (structured) or PTX",
     ".lsproj": "FARO: open it in FARO SCENE and export it as E57 (structured) or PTX",
@@ -54,8 +50,6 @@ REFUSED = {
     ".clr": "Topcon: open it in ScanMaster or Magnet Collage and export it as E57 or PTX",
     ".pcap": "packets of a spinning lidar: save its frames with the maker's tools as NumPy arrays or PCD",
     ".bag": "a recording of ROS: save its frames as organized PCD or NumPy arrays",
-    ".las": _POINTS_ALONE,
-    ".laz": _POINTS_ALONE,
     ".cpe": "Callidus: open it in 3D-Extractor and export it as PTX or PTS",
 }
 """Formats that are not supported, with the way to export from each maker's program, by suffix."""

@@ -11,10 +11,11 @@ from ...errors import OutputError, ScanError
 from ...messages import Message
 from ..atomic import written_atomically
 from ..confined.child import Child, ChildFailed
+from ..confined.reading import OneLine, shared_file
 from ..gate import opened, size_of
 from ..memory import require_memory
 from ..readers.e57 import each_scan
-from ..readers.e57_columns import OneLine, library_of, reason_of, shared_file
+from ..readers.e57_columns import library_of, reason_of
 from ..readers.options import AS_IT_IS
 from .point_colors import colors_of_points
 
@@ -108,7 +109,7 @@ def _copy(file, source, parts, places, temporary, path, warnings, progress, canc
                 at += part.size
         handed_on = sys.platform != "win32"
         with (
-            OneLine(source),
+            OneLine(source, "E57"),
             Child(
                 SCRIPT,
                 inherited=[file.fileno(), number] if handed_on else [],

@@ -1,0 +1,73 @@
+"""The child process that decompresses the points of a LAZ: run as a program, with what to read on its standard input.
+
+It imports nothing of the package, and needs nothing but this folder and the library. One line of JSON comes in (see
+`main`); lines of JSON go out. The records go into a file that the parent holds open, as an uncompressed LAS has them.
+"""
+
+import importlib.util
+import json
+import mmap
+import os
+import sys
+from pathlib import Path
+
+_RECORDS = 1 << 18
+"""That are read at a time."""
+
+
+def main(lines, answer):
+    """Do what the line asks for.
+
+    Parameters
+    ----------
+    lines : iterable of str
+        One: ``{"library": path, "file": [number or null, path], "columns": [number or null, path], "at": first byte of
+        the points, "laszip": [bytes of the record that describes the compression], "count": records, "record": bytes
+        of one, "memory": bytes, "written": bytes, "seconds": number}``.
+    answer : callable
+        Called with each answer: ``{"at": records so far}``, ``{"done": records}``, or ``{"error": text}``.
+    """
+    from confinement import confine, reopened
+
+    request = json.loads(next(iter(lines)))
+    number, path = request["columns"]
+    if number is None:
+        number = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
+    records = memoryview(mmap.mmap(number, 0))
+    library = _library_at(request["library"])
+    confine(**{key: request[key] for key in ("memory", "written", "seconds")})
+    answer({"ready": True})
+    try:
+        with Path(reopened(*request["file"])).open("rb") as file:
+            file.seek(request["at"])
+            unpacked = library.LasZipDecompressor(file, bytes(request["laszip"]))
+            size, count = request["record"], request["count"]
+            for first in range(0, count, _RECORDS):
+                last = min(count, first + _RECORDS)
+                unpacked.decompress_many(records[first * size : last * size])
+                answer({"at": last})
+        answer({"done": count})
+    except MemoryError:
+        answer({"error": "memory"})
+    except (
+        BaseException
+    ) as error:  # whatever native code raises, panics of Rust included: its text is all that there is
+        answer({"error": str(error)[:10_000]})
+
+
+def _library_at(path):
+    """Lazrs as it lies in the wheel, without the Python around it."""
+    spec = importlib.util.spec_from_file_location("lazrs", path)
+    library = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(library)
+    return library
+
+
+def _answer(answer):
+    sys.stdout.write(json.dumps(answer) + "\n")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
+    main(sys.stdin, _answer)

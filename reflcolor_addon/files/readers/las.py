@@ -1,0 +1,174 @@
+"""LAS and LAZ: points without a grid, as aerial and mobile programs and many converters write them."""
+
+import importlib.util
+import struct
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import Cancelled, ScanError
+from ...messages import Message, one_line
+from ...scan.limits import MOST_PIXELS
+from ..confined.reading import ConfinedReading
+from ..gate import size_of
+from .cloud import check_size, scan_of_columns
+from .formats import Format
+from .options import AS_IT_IS
+
+SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "laz_points.py"
+_MAGIC = b"LASF"
+# Offset to the points, number of records before them, point format, size of a record, number of points.
+_HEAD = struct.Struct("<96xIIBHI")
+_SHORTEST_RECORD_BEFORE, _COMPRESSED = 54, 0x80
+_LASZIP = ("laszip encoded", 22204)
+_RECORDS = 1 << 20
+# What the child may take: the library and its buffers. Seconds of the processor: far more than the slowest needs.
+_BASE_BYTES, _BASE_SECONDS, _POINTS_PER_SECOND = 1 << 29, 15, 100_000
+_NEVER_COLUMNS = ("x", "y", "z", "red", "green", "blue", "intensity")
+
+
+def read_las(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
+    """Read the points of a LAS or LAZ; what makes a scan of them is a grid by angle, or rows and columns among them.
+
+    Coordinates are in meters, as the file's scale and offset say; colors of 16 bits come down to 8. Fields beyond the
+    standard's own are known by their names, such as ``grid_row`` and ``grid_col``. Parameters and errors are those of
+    `read_scans`.
+    """
+
+    def tell(fraction):
+        if cancelled and cancelled():
+            raise Cancelled
+        if progress:
+            progress(fraction, Message("Reading {file}", file=path.name))
+
+    tell(0.0)
+    header = _header(file, path)
+    count, record = header.point_count, header.point_format.size
+    check_size(path, count, len(header.point_format.dimensions) + record // 8)
+    if header.are_points_compressed:
+        data = _decompressed(file, path, header, tell, cancelled)
+    else:
+        data = _stored(file, path, header, tell)
+    return [scan_of_columns(path, _columns(data, header), options=options)]
+
+
+def _header(file, path):
+    """The laspy.LasHeader of a file, which fits the file."""
+    try:
+        import laspy
+    except ImportError:
+        raise ScanError("{file}: LAS needs laspy, which is missing; export its points as E57", file=path.name) from None
+    start = file.read(_HEAD.size)
+    if not start.startswith(_MAGIC):
+        raise ScanError("{file}: not a LAS file (it does not begin with LASF)", file=path.name)
+    damaged = ScanError("{file}: its header does not fit the file; it is damaged or cut short", file=path.name)
+    if len(start) < _HEAD.size:
+        raise damaged
+    points_at, before, *_ = _HEAD.unpack(start)
+    # Every record before the points has a header of its own: a count that they have no room for is never read.
+    if points_at > size_of(file) or before * _SHORTEST_RECORD_BEFORE > points_at:
+        raise damaged
+    file.seek(0)
+    try:
+        header = laspy.LasHeader.read_from(file, read_evlrs=False)
+        dtype = header.point_format.dtype()
+    except (laspy.errors.LaspyException, ValueError, KeyError, IndexError, TypeError, OverflowError, struct.error) as e:
+        raise ScanError("{file}: its header is damaged ({reason})", file=path.name, reason=one_line(str(e), 200)) from e
+    if not 0 < header.point_count <= MOST_PIXELS:
+        raise ScanError("{file}: claims {count:,} points", file=path.name, count=header.point_count)
+    if dtype.itemsize != header.point_format.size:
+        raise damaged
+    return header
+
+
+def _stored(file, path, header, tell):
+    """The records of a LAS, as bytes."""
+    size = header.point_count * header.point_format.size
+    if size_of(file) - header.offset_to_point_data < size:
+        raise ScanError("{file}: holds less than its header says; it is cut short", file=path.name)
+    data, step = np.empty(size, np.uint8), _RECORDS * header.point_format.size
+    file.seek(header.offset_to_point_data)
+    for first in range(0, size, step):
+        part = memoryview(data)[first : first + step]
+        if file.readinto(part) != len(part):
+            raise ScanError("{file}: holds less than its header says; it is cut short", file=path.name)
+        tell((first + len(part)) / size)
+    return data
+
+
+def _decompressed(file, path, header, tell, cancelled):
+    """The records of a LAZ, as bytes, decompressed in a child process."""
+    spec = importlib.util.find_spec("lazrs")
+    folders = [Path(folder) for folder in spec.submodule_search_locations] if spec else []
+    native = (file for folder in folders for file in sorted(folder.glob("lazrs.*")))
+    library = next((file for file in native if file.suffix in (".so", ".pyd")), None)
+    if library is None:
+        raise ScanError("{file}: LAZ needs lazrs, which is missing; export its points as LAS", file=path.name)
+    laszip = [record for record in header.vlrs if (record.user_id, record.record_id) == _LASZIP]
+    if not laszip:
+        raise ScanError("{file}: does not say how its points are compressed; it is damaged", file=path.name)
+    count, size = header.point_count, header.point_count * header.point_format.size
+    with ConfinedReading(
+        SCRIPT,
+        "LAZ",
+        file,
+        path,
+        size=size,
+        limits={"memory": _BASE_BYTES + 2 * size, "seconds": _BASE_SECONDS + count // _POINTS_PER_SECOND},
+        request={
+            "library": str(library),
+            "at": header.offset_to_point_data,
+            "laszip": list(laszip[0].record_data_bytes()),
+            "count": count,
+            "record": header.point_format.size,
+        },
+        reason_of=_reason_of,
+        cancelled=cancelled,
+    ) as reading:
+        while (found := reading.answer("at", "done", most=count))[0] == "at":
+            tell(found[1] / count)
+        if found[1] != count:
+            raise ScanError("{file}: holds less than its header says; it is cut short", file=path.name)
+        return np.frombuffer(reading.memory, np.uint8)
+
+
+def _reason_of(text):
+    """The end of a message about what the library says."""
+    if text == "memory":
+        return Message("does not fit into memory")
+    return Message(
+        "its points cannot be decompressed ({reason}); it is damaged or cut short: copy it again",
+        reason=one_line(text, 200),
+    )
+
+
+def _columns(data, header):
+    """Columns as `scan_of_columns` takes them."""
+    import laspy
+
+    form = header.point_format
+    points = laspy.ScaleAwarePointRecord(
+        np.frombuffer(data, form.dtype(), header.point_count), form, header.scales, header.offsets
+    )
+    columns = {axis: np.asarray(points[axis], np.float64) for axis in "xyz"}
+    names = set(form.dimension_names)
+    if np.ptp(points["intensity"]):
+        columns["intensity"] = np.asarray(points["intensity"])
+    if {"red", "green", "blue"} <= names:
+        colors = {name: np.asarray(points[name]) for name in ("red", "green", "blue")}
+        if any(values.any() for values in colors.values()):
+            columns |= colors
+    for dimension in form.extra_dimensions:
+        name = dimension.name.lower().replace(" ", "_")
+        if dimension.num_elements == 1 and name not in _NEVER_COLUMNS:
+            columns[name] = np.asarray(points[dimension.name])
+    return columns
+
+
+FORMAT = Format(
+    name="LAS and LAZ",
+    suffixes=(".las", ".laz"),
+    read=read_las,
+    sniff=lambda start: start.startswith(_MAGIC),
+    about="points without a grid, with --grid angle; or with rows and columns as fields of their own",
+)
