@@ -11,11 +11,6 @@ _FORMATS = {
     "FARO: open it in FARO SCENE and export it as E57 (structured) or PTX": (
         "FARO: in FARO SCENE öffnen und als E57 (strukturiert) oder PTX exportieren"
     ),
-    "LAS and LAZ know no rows and columns: export the scan as E57 (structured) or PTX, or its points as PTS, for "
-    "--grid angle": (
-        "LAS und LAZ kennen keine Zeilen und Spalten: den Scan als E57 (strukturiert) oder PTX exportieren, oder seine "
-        "Punkte als PTS, für ein Raster nach Winkeln"
-    ),
     "Leica: open it in Cyclone and export it as PTX or E57 (structured)": (
         "Leica: in Cyclone öffnen und als PTX oder E57 (strukturiert) exportieren"
     ),

@@ -73,10 +73,10 @@ _E57 = {
         "nach Winkeln im Import-Dialog"
     ),
     "{file}: LAS needs laspy, which is missing; export its points as E57": (
-        "{file}: für LAS fehlt laspy; ihre Punkte als E57 exportieren"
+        "{file}: LAS braucht laspy, das hier fehlt; ihre Punkte als E57 exportieren"
     ),
     "{file}: LAZ needs lazrs, which is missing; export its points as LAS": (
-        "{file}: für LAZ fehlt lazrs; ihre Punkte als LAS exportieren"
+        "{file}: LAZ braucht lazrs, das hier fehlt; ihre Punkte als LAS exportieren"
     ),
     "{file}: not a LAS file (it does not begin with LASF)": "{file}: keine LAS-Datei (sie beginnt nicht mit LASF)",
     "{file}: its header does not fit the file; it is damaged or cut short": (
@@ -96,6 +96,7 @@ _E57 = {
     "has points of the type {kind}, which hold no records; export it again": (
         "hat Punkte vom Typ {kind}, der keine Datensätze enthält; neu exportieren"
     ),
+    "does not fit into memory": "passt nicht in den Speicher",
     "has no points": "hat keine Punkte",
     "has no known coordinates, expected cartesianX, Y, Z or sphericalRange, Azimuth, Elevation": (
         "hat keine bekannten Koordinaten, erwartet cartesianX, Y, Z oder sphericalRange, Azimuth, Elevation"

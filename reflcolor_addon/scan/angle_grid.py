@@ -158,6 +158,8 @@ def _steps_by_filling(down, along):
     share = min(1.0, _SAMPLES / len(along))
     middle, half = np.median(along), np.ptp(along) * share / 2
     part = np.abs(along - middle) <= half
+    if np.ptp(along[part]) == 0 or np.ptp(down[part]) == 0:
+        part[:] = True
     down, along = (angles[part] - angles[part].min() for angles in (down, along))
     best, most = None, 0
     for aspect in _ASPECTS:
@@ -172,6 +174,8 @@ def _filled_steps(down, along, aspect):
     step = np.sqrt(np.ptp(along) * np.ptp(down) / len(along)) / 2
     while True:
         steps = float(step / np.sqrt(aspect)), float(step * np.sqrt(aspect))
+        # Almost in one line, points would otherwise have more rows or columns than can be counted.
+        steps = max(steps[0], np.ptp(down) / _MOST_LINES), max(steps[1], np.ptp(along) / _MOST_LINES)
         rows, cols = ((angles / size).astype(np.int64) for angles, size in zip((down, along), steps, strict=True))
         filled = np.zeros((rows.max() + 1, cols.max() + 1), bool)
         filled[rows, cols] = True

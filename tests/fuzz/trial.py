@@ -20,8 +20,20 @@ SLOWEST_S = 5.0
 MOST_BYTES = 300 << 20
 """Beyond what the file honestly needs, which for files of a few kilobytes is nothing beside this."""
 
-SHARES = {"PTX": 14, "PCD": 11, "PLY": 10, "NumPy": 9, "text": 4, "image pair": 7, "PNG": 6, "JPEG": 3, "WebP": 2}
-SHARES |= {"BMP": 2, "TIFF": 8, "EXR": 5, "seeds": 4, "report": 3, "E57": 12}
+SHARES = {
+    "PTX": 13,
+    "PCD": 9,
+    "PLY": 9,
+    "LAS": 4,
+    "LAZ": 3,
+    "NumPy": 8,
+    "text": 4,
+    "image pair": 7,
+    "PNG": 5,
+    "JPEG": 3,
+    "WebP": 2,
+}
+SHARES |= {"BMP": 2, "TIFF": 8, "EXR": 5, "seeds": 4, "report": 3, "E57": 11}
 """Of a hundred files, how many are of a kind."""
 
 

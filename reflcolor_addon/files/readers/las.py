@@ -71,12 +71,12 @@ def _header(file, path):
     file.seek(0)
     try:
         header = laspy.LasHeader.read_from(file, read_evlrs=False)
-        dtype = header.point_format.dtype()
-    except (laspy.errors.LaspyException, ValueError, KeyError, IndexError, TypeError, OverflowError, struct.error) as e:
+        fits = header.point_format.dtype().itemsize == header.point_format.size
+    except (laspy.errors.LaspyException, ValueError, LookupError, TypeError, ArithmeticError, struct.error) as e:
         raise ScanError("{file}: its header is damaged ({reason})", file=path.name, reason=one_line(str(e), 200)) from e
     if not 0 < header.point_count <= MOST_PIXELS:
         raise ScanError("{file}: claims {count:,} points", file=path.name, count=header.point_count)
-    if dtype.itemsize != header.point_format.size:
+    if not fits:
         raise damaged
     return header
 
