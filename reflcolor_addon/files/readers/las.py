@@ -35,20 +35,20 @@ def read_las(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     `read_scans`.
     """
 
-    def tell(fraction):
+    def report(fraction):
         if cancelled and cancelled():
             raise Cancelled
         if progress:
             progress(fraction, Message("Reading {file}", file=path.name))
 
-    tell(0.0)
+    report(0.0)
     header = _header(file, path)
     count, record = header.point_count, header.point_format.size
     check_size(path, count, len(header.point_format.dimensions) + record // 8)
     if header.are_points_compressed:
-        data = _decompressed(file, path, header, tell, cancelled)
+        data = _decompressed(file, path, header, report, cancelled)
     else:
-        data = _stored(file, path, header, tell)
+        data = _stored(file, path, header, report)
     return [scan_of_columns(path, _columns(data, header), options=options)]
 
 
@@ -81,7 +81,7 @@ def _header(file, path):
     return header
 
 
-def _stored(file, path, header, tell):
+def _stored(file, path, header, report):
     """The records of a LAS, as bytes."""
     size = header.point_count * header.point_format.size
     if size_of(file) - header.offset_to_point_data < size:
@@ -92,11 +92,11 @@ def _stored(file, path, header, tell):
         part = memoryview(data)[first : first + step]
         if file.readinto(part) != len(part):
             raise ScanError("{file}: holds less than its header says; it is cut short", file=path.name)
-        tell((first + len(part)) / size)
+        report((first + len(part)) / size)
     return data
 
 
-def _decompressed(file, path, header, tell, cancelled):
+def _decompressed(file, path, header, report, cancelled):
     """The records of a LAZ, as bytes, decompressed in a child process."""
     spec = importlib.util.find_spec("lazrs")
     folders = [Path(folder) for folder in spec.submodule_search_locations] if spec else []
@@ -126,7 +126,7 @@ def _decompressed(file, path, header, tell, cancelled):
         cancelled=cancelled,
     ) as reading:
         while (found := reading.answer("at", "done", most=count))[0] == "at":
-            tell(found[1] / count)
+            report(found[1] / count)
         if found[1] != count:
             raise ScanError("{file}: holds less than its header says; it is cut short", file=path.name)
         return np.frombuffer(reading.memory, np.uint8)
