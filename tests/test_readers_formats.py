@@ -99,6 +99,12 @@ def test_a_pcd_that_is_cut_short_is_told(tmp_path, kind):
         assert str(caught.value).startswith("hall.pcd: ") and "\n" not in str(caught.value)
 
 
+def test_a_size_in_other_digits_is_no_size(tmp_path):
+    data = pcd("ascii").replace(b"HEIGHT ", b"HEIGHT \xb9")
+    with pytest.raises(ScanError, match="HEIGHT is .*expected a whole number"):
+        read(tmp_path, "hall.pcd", data)
+
+
 def test_a_pcd_of_one_row_is_gridded_by_angle_when_that_is_asked_for(tmp_path):
     with pytest.raises(ScanError, match=r"has no grid: .*--grid angle"):
         read(tmp_path, "hall.pcd", pcd("binary", height=1))

@@ -62,6 +62,14 @@ def test_what_is_cut_short_or_gone_is_told(run_cli, results):
     }
 
 
+def test_an_output_whose_name_is_too_long_for_a_file_is_missing(run_cli, results):
+    report = json.loads((results / "r.json").read_text(encoding="utf-8"))
+    report["outputs"][0] |= dict.fromkeys(("path", "from_report"), "a" * 4000)
+    (results / "r.json").write_text(json.dumps(report))
+    status, out, _ = run_cli("verify", "r.json")
+    assert (status, out.startswith("missing  aaaa")) == (1, True)
+
+
 @pytest.mark.parametrize(
     ("change", "part"),
     [

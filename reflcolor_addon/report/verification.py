@@ -66,9 +66,9 @@ def verify_outputs(report, report_path, cancelled=None):
 
 
 def _verified(path, elsewhere, size, sha256, cancelled):
-    if not path.is_file() and elsewhere.is_file():
+    if not _is_file(path) and _is_file(elsewhere):
         path = elsewhere
-    if not path.is_file():
+    if not _is_file(path):
         return Verified(path, MISSING, Message("there is no such file"))
     same_size = path.stat().st_size == size
     if same_size and fingerprint(path, cancelled)["sha256"] == sha256:
@@ -76,3 +76,10 @@ def _verified(path, elsewhere, size, sha256, cancelled):
     if (fault := fault_of(path)) is not None:
         return Verified(path, CHANGED, fault)
     return Verified(path, CHANGED, Message("it is whole, but was written by another run or changed since"))
+
+
+def _is_file(path):
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a name that is too long to be a file's
+        return False

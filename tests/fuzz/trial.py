@@ -89,7 +89,7 @@ class Trials:
                 while trace.tb_next is not None:
                     trace = trace.tb_next
                 place = f"{Path(trace.tb_frame.f_code.co_filename).name}:{trace.tb_lineno}"
-                state = f"{type(error).__name__} at {place}: {error}"
+                state = f"{type(error).__name__} at {place}: {error}"[:300]
         seconds = time.monotonic() - start
         taken = max(0, _peak() - before)
         # A child process counts whole, with what its parent had when it started; one below the largest so far is not

@@ -81,8 +81,8 @@ def _header(file, path):
         raise ScanError("{file}: FIELDS, SIZE, TYPE and COUNT of its header differ in length", file=path.name)
     types, numbers = [], []
     for kind, size, number in zip(kinds, sizes, counts, strict=True):
-        code = _TYPES.get((kind, int(size) if size.isdigit() else 0))
-        if code is None or not number.isdigit() or not 0 < int(number) <= 4096:
+        code = _TYPES.get((kind, int(size) if size.isdecimal() else 0))
+        if code is None or not number.isdecimal() or not 0 < int(number) <= 4096:
             raise ScanError("{file}: its header has a field of an unknown type", file=path.name)
         types.append(code)
         numbers.append(int(number))
@@ -182,7 +182,7 @@ def _unpack_colors(columns):
 
 def _whole(header, key, path):
     word = header[key][0]
-    if not word.isdigit() or len(word) > 12:
+    if not word.isdecimal() or len(word) > 12:
         raise ScanError("{file}: {key} is {found}, expected a whole number", file=path.name, key=key, found=word)
     return int(word)
 

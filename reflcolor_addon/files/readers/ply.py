@@ -157,7 +157,7 @@ class _Header:
         stated = {}
         for note in self._notes:
             key, _, value = note.replace("=", " ").partition(" ")
-            if value.strip().isdigit() and len(value) < 8:
+            if value.strip().isdecimal() and len(value) < 8:
                 stated[key.lower()] = int(value)
         found = next((names for names in _SIZES if stated.keys() >= set(names)), None)
         return None if found is None else tuple(stated[name] for name in found)
