@@ -9,34 +9,6 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-LIBRARY = r"""
-#define _GNU_SOURCE
-#include <errno.h>
-#include <fcntl.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/socket.h>
-#include <netdb.h>
-#include <unistd.h>
-
-static int refused(const char *call)
-{
-    int log = open(getenv("REFLCOLOR_SOCKETS"), O_WRONLY | O_APPEND | O_CREAT, 0600);
-    if (log < 0 || write(log, call, strlen(call)) < 0) abort();
-    close(log);
-    errno = EACCES;
-    return -1;
-}
-
-int socket(int domain, int type, int protocol) { return refused("socket\n"); }
-int socketpair(int domain, int type, int protocol, int ends[2]) { return refused("socketpair\n"); }
-int connect(int end, const struct sockaddr *to, socklen_t size) { return refused("connect\n"); }
-int getaddrinfo(const char *node, const char *service, const struct addrinfo *hints, struct addrinfo **found)
-{
-    refused("getaddrinfo\n");
-    return EAI_FAIL;
-}
-"""
 READ = """
 import sys, tempfile
 from pathlib import Path
@@ -69,13 +41,14 @@ def watched(tmp_path_factory):
     if not sys.platform.startswith("linux") or compiler is None:
         pytest.skip("needs Linux and a C compiler")
     folder = tmp_path_factory.mktemp("watched")
-    (folder / "refuse.c").write_text(LIBRARY)
-    subprocess.run([compiler, "-shared", "-fPIC", "-o", folder / "refuse.so", folder / "refuse.c"], check=True)
+    source = ROOT / "tests" / "refuse_sockets.c"
+    subprocess.run([compiler, "-shared", "-fPIC", "-o", folder / "refuse.so", source], check=True)
 
     def run(code, *arguments):
         log = folder / "log"
         log.write_text("")
         env = os.environ | {"LD_PRELOAD": str(folder / "refuse.so"), "REFLCOLOR_SOCKETS": str(log)}
+        del env["PYTEST_CURRENT_TEST"]
         env["PYTHONPATH"] = os.pathsep.join((str(ROOT / "tests"), str(ROOT)))
         subprocess.run([sys.executable, "-c", code, *arguments], env=env, check=True, timeout=300)
         return log.read_text().split()
