@@ -122,7 +122,8 @@ def _contents(folder, suffix, write):
     return found
 
 
-def _litter(folder):
+def litter(folder):
+    """Return the names of what killed runs have left in a folder."""
     return [path.name for path in folder.iterdir() if path.name.startswith(".reflcolor-")]
 
 
@@ -145,32 +146,37 @@ def _kill(folder, moments):
             time.sleep(random.uniform(0, longest))
             os.kill(child, signal.SIGKILL)
             os.waitpid(child, 0)
-            left += bool(_litter(folder))
+            left += bool(litter(folder))
             if path.read_bytes() not in known or fault_of(path) is not None:
                 bad.append(f"{suffix}, moment {moment}: neither the old nor the new file")
-            if not _written(write, path, 0) or _litter(folder):
-                bad.append(f"{suffix}, moment {moment}: the next run did not clean up: {len(_litter(folder))} folders")
+            if not _written(write, path, 0) or litter(folder):
+                bad.append(f"{suffix}, moment {moment}: the next run did not clean up: {len(litter(folder))} folders")
         told = f"{suffix:<6} {moments} kills, {left} left a folder"
         yield told if bad else f"{told}, which the next run removed; the file was always one of the two, whole", bad
 
 
+def colorize_words(scan="room.e57"):
+    """Return the words of a command that colorizes what `prepare` has written."""
+    # The preset's brightness is the scan's noise, which no picture packs well.
+    return ["colorize", scan, "--seeds", "seeds.json", "--preset", "Paper"]
+
+
 def _command(folder, *outputs, scan="room.e57", environment=None):
-    line = [sys.executable, "-m", "reflcolor_addon", "colorize", scan, "--seeds", "seeds.json"]
-    # Its brightness is the scan's noise, which no picture packs well.
-    line += ["--preset", "Paper"]
+    line = [sys.executable, "-m", "reflcolor_addon", *colorize_words(scan)]
     scratch = folder / "scratch"
     scratch.mkdir(exist_ok=True)
     env = os.environ | {"PYTHONPATH": str(ROOT), "TMPDIR": str(scratch)} | (environment or {})
     return line + list(outputs), {"cwd": folder, "env": env}
 
 
-def _prepare(folder):
+def prepare(folder):
+    """Write a scan and its seeds into a folder."""
     write_e57(_scan(0), folder / "room.e57")
     Seeds(np.arange(0, 80, 8), np.arange(0, 100, 10), np.full((10, 3), 120)).save(folder / "seeds.json")
 
 
 def _signals(folder, moments):
-    _prepare(folder)
+    prepare(folder)
     names = ("o.png", "o.ply", "o.glb", "o.e57", "o.json")
     options = ["-o", "o.png", "-o", "o.ply", "-o", "o.glb", "-o", "o.e57", "--report", "o.json"]
     line, settings = _command(folder, *options)
@@ -204,16 +210,20 @@ def _signals(folder, moments):
             process.kill()
             said = f"did not end; {process.communicate()[1]}"
         statuses[process.returncode] += 1
-        lines = said.splitlines()
-        ended = process.returncode == _STATUS[number] and len(lines) == 1 and lines[0].startswith("error: interrupted")
-        done = process.returncode == 0 and not lines
-        if not (ended or done):
-            bad.append(f"moment {moment}, {number.name}: status {process.returncode}, said {said[-300:]!r}")
+        if fault := wrong_end(number, process.returncode, said):
+            bad.append(f"moment {moment}, {number.name}: {fault}")
         halves = [name for name in names if (folder / name).exists() and fault_of(folder / name) is not None]
-        if halves or _litter(folder) or list((folder / "scratch").iterdir()):
-            bad.append(f"moment {moment}, {number.name}: left {halves + _litter(folder)}")
+        if halves or litter(folder) or list((folder / "scratch").iterdir()):
+            bad.append(f"moment {moment}, {number.name}: left {halves + litter(folder)}")
     told = ", ".join(f"status {status}: {count}" for status, count in sorted(statuses.items()))
     yield f"{moments} moments of a run of {whole:.1f} s, its imports and the E57 child included; {told}", bad
+
+
+def wrong_end(number, status, said):
+    """Return what is wrong with how a run ended that got a signal, None where nothing is: it was done, or says so."""
+    lines = said.splitlines()
+    ended = status == _STATUS[number] and len(lines) == 1 and lines[0].startswith("error: interrupted")
+    return None if ended or (status == 0 and not lines) else f"status {status}, said {said[-300:]!r}"
 
 
 @contextlib.contextmanager
@@ -229,7 +239,7 @@ def _mounted(folder, *options):
 
 
 def _full(folder, _moments):
-    _prepare(folder)
+    prepare(folder)
     disk = folder / "disk"
     with _mounted(disk, "-o", f"size={_FULL_KB}k") as allowed:
         if not allowed:
@@ -260,13 +270,13 @@ def _on_full_disk(folder, disk, suffix, options, scan):
     bad = []
     if done.returncode != 1 or len(lines) != 1 or path.name not in lines[0]:
         bad.append(f"{suffix}: status {done.returncode}, said {done.stderr[-300:]!r}")
-    if path.read_bytes() != b"old and good" or _litter(disk):
-        bad.append(f"{suffix}: the old file is gone, or {_litter(disk)} is left")
+    if path.read_bytes() != b"old and good" or litter(disk):
+        bad.append(f"{suffix}: the old file is gone, or {litter(disk)} is left")
     return f"{suffix:<6} {lines[-1] if lines else done.returncode}", bad
 
 
 def _folders(folder, moments):
-    _prepare(folder)
+    prepare(folder)
     disk = folder / "disk"
     with _mounted(disk, "-o", "ro") as allowed:
         if allowed:
@@ -327,8 +337,8 @@ def _together(folder, _moments):
                 bad.append(f"{suffix}: look {looked}: neither of the two files")
         if any([os.waitpid(child, 0)[1] for child in children]):
             bad.append(f"{suffix}: a writer failed")
-        if _litter(folder):
-            bad.append(f"{suffix}: left {_litter(folder)}")
+        if litter(folder):
+            bad.append(f"{suffix}: left {litter(folder)}")
         yield (
             f"{suffix:<6} two writers for {_SECONDS_TOGETHER:.0f} s: looked at {looked} times, always one of the two",
             bad,
