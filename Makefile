@@ -2,6 +2,7 @@
 # make demo    sets up, builds, and colorizes the example in examples/cones; the results are in demo/
 # make test    sets up, checks style and types, builds the zip and tests it (in CI with every Python that is there)
 # make test-window  tests in the window of a real Blender: BLENDER=/path/to/blender names one
+# make test-no-network  the tests that need no Blender, under a library that refuses sockets (tools/test_no_network.sh)
 # make build   the extension's zip for this machine and this Python, in dist/
 # make dist    the zip to hand out: for this platform, with the wheels of every Python that a Blender runs
 # make dist-all  the same for every platform that has the wheels
@@ -29,7 +30,7 @@ KINDS ?= plain blender
 NEWEST_BPY = 5.3.0
 BPY = build/bpy-$(NEWEST_BPY)
 
-.PHONY: help setup kernel build dist dist-all release demo bench bench-job fuzz check format test test-one test-newest test-all test-window lock clean distclean
+.PHONY: help setup kernel build dist dist-all release demo bench bench-job fuzz check format test test-one test-no-network test-newest test-all test-window lock clean distclean
 
 help:
 	@sed -n 's/^# \{0,1\}//p;/^$$/q' Makefile
@@ -87,6 +88,9 @@ endif
 
 test-one: build
 	@tools/run_tests.sh $(RUN) $(KINDS)
+
+test-no-network: setup kernel
+	@tools/test_no_network.sh $(RUN)
 
 # The tests in Blender with the newest bpy, in the same environment.
 test-newest: build $(BPY)/stamp

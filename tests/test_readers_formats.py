@@ -101,7 +101,7 @@ def test_a_pcd_that_is_cut_short_is_told(tmp_path, kind):
 
 def test_a_size_in_other_digits_is_no_size(tmp_path):
     data = pcd("ascii").replace(b"HEIGHT ", b"HEIGHT \xb9")
-    with pytest.raises(ScanError, match="HEIGHT is .*expected a whole number"):
+    with pytest.raises(ScanError, match=r"HEIGHT is .*expected a whole number"):
         read(tmp_path, "hall.pcd", data)
 
 

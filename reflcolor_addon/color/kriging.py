@@ -58,7 +58,8 @@ def pixel_features(scan, luminance):
     direction = np.divide(scan.points, distance[..., None], out=features[..., 0:3], casting="same_kind")
     # Of unit vectors; and a square of side s has a mean squared distance from its center of s^2 / 6.
     variance = 1 - np.sum(direction[valid].mean(axis=0, dtype=np.float64) ** 2)
-    direction /= max(np.sqrt(6 * max(variance, 0)), 1e-6) * SCALES["direction"]
+    # An array of one number: by a number alone NumPy 1 would divide in single precision, NumPy 2 does not.
+    direction /= np.array([max(np.sqrt(6 * max(variance, 0)), 1e-6) * SCALES["direction"]])
     features[..., 3] = luminance / (255 * SCALES["luminance"])
     features[..., 4] = np.log(distance) / SCALES["log_range"]
     features[..., 5:8] = surface_normals(scan.points, valid, wrap=scan.full_turn) / SCALES["normal"]
