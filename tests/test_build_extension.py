@@ -1,7 +1,10 @@
 """The tool that makes the zip: what it stages, that its output is reproducible, and its error messages."""
 
+import subprocess
+import sys
 import tomllib
 import zipfile
+from pathlib import Path
 
 import pytest
 from build_extension import (
@@ -100,3 +103,10 @@ def test_a_platform_without_wheels_is_refused_with_the_reason(platform, reason):
 def test_every_platform_without_a_package_names_a_pinned_one():
     for platform in PLATFORMS.values():
         assert set(platform.without) <= set(read_pins())
+
+
+@pytest.mark.parametrize("tool", ["build_extension.py", "release.py"])
+def test_a_tool_starts_as_a_command_in_any_folder(tool, tmp_path):
+    script = Path(__file__).resolve().parent.parent / "tools" / tool
+    run = subprocess.run([sys.executable, script, "--help"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (0, "")
