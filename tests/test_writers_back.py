@@ -225,3 +225,18 @@ def test_the_command_writes_colors_back(run_cli, cli_folder, source, made):
     np.testing.assert_array_equal(after.color[after.valid], colored.color[colored.valid])
     outputs = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))["outputs"]
     assert {entry["path"] for entry in outputs if "sha256" in entry} == {"a.ply", f"made.{made}"}
+
+
+@pytest.mark.parametrize("suffix", [".ptx", ".e57"])
+def test_a_scan_that_the_file_does_not_have_is_told(tmp_path, suffix):
+    source = tmp_path / f"hall{suffix}"
+    if suffix == ".ptx":
+        source.write_text(ptx_text(HALL, NAMES / NAMES.max()))
+        write = write_ptx_colors
+    else:
+        write_e57([random_scan(shape=HALL.shape[:2])], source)
+        write = write_e57_colors
+    for number in (-1, 1):
+        with pytest.raises(OutputError, match=r"made.* has changed since its scans were read"):
+            write(source, {number: COLOR}, tmp_path / f"made{suffix}")
+        assert not (tmp_path / f"made{suffix}").exists()

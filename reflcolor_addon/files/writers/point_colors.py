@@ -31,7 +31,7 @@ def colors_of_points(scans, colors, path, source):
     Raises
     ------
     OutputError
-        If a scan's size is no longer that of its colors.
+        If a scan's size is no longer that of its colors, or the file has no such scan.
     """
     number = -1
     for index, (scan, order, cells) in enumerate(scans):
@@ -51,3 +51,5 @@ def colors_of_points(scans, colors, path, source):
         found = np.zeros((len(places), 3), np.uint8)
         found[known] = rgb.reshape(-1, 3)[pixels[known]]
         yield index, scan, found, known
+    if max(colors, default=-1) > number or min(colors, default=0) < 0:
+        raise OutputError("{file}: {source} has changed since its scans were read", file=path, source=source.name)
