@@ -9,7 +9,8 @@ pairs is compared with the truth:
 - cost: processor time of the batch, colorizing and writing included, beside that of matching every photo with every
   scan. The latter is measured on all true pairs and on a random sample of the others, and summed up.
 
-With --folder the archive and what was measured are kept there; the command goes on where it was interrupted.
+With --folder the archive and what was measured are kept there, and the command goes on where it was interrupted.
+--minutes interrupts it: what it was at is done again, and counts twice.
 """
 
 import argparse
@@ -44,14 +45,12 @@ def main():
     parser.add_argument("--seed", type=int, default=0, help="another number is another archive")
     parser.add_argument("--sample", type=int, default=20, help="how many wrong pairs are matched for their cost")
     parser.add_argument("--folder", type=Path, help="where to put the archive, and to keep it")
+    parser.add_argument("--minutes", type=float, default=1e6, help="stop after so long; the next call goes on")
     arguments = parser.parse_args()
     folder = arguments.folder or Path(tempfile.mkdtemp(prefix="archive-"))
     folder.mkdir(parents=True, exist_ok=True)
     right = make(folder, arguments.scans, arguments.photos, arguments.seed)
-    known = _Known(folder / "measured.json")
-    batch = known.of("batch", lambda: run_batch(folder, arguments.jobs))
-    table = rows(folder)
-    found = {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] == "yes"}
+    known = _Known(folder / "measured.json", time.monotonic() + 60 * arguments.minutes)
     pairs = sorted((f"scan_{scan:02d}", f"photo_{photo:02d}") for scan, photo in right)
     true = [known.of("+".join(pair), lambda pair=pair: matched(folder, *pair)) for pair in pairs]
     rng, wrong = np.random.default_rng(6), []
@@ -59,6 +58,10 @@ def main():
         pair = f"scan_{rng.integers(arguments.scans):02d}", f"photo_{rng.integers(arguments.photos):02d}"
         if pair not in pairs:
             wrong.append(known.of("+".join(pair), lambda pair=pair: matched(folder, *pair)))
+    while not (batch := known.of("batch", dict)).get("done"):
+        known.set("batch", run_batch(folder, arguments.jobs, batch, known.end))
+    table = rows(folder)
+    found = {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] == "yes"}
     verified = {pair for pair, own in zip(pairs, true, strict=True) if own["verified"]}
     lost = sorted(verified - found)
     count = arguments.scans * arguments.photos
@@ -76,17 +79,22 @@ def main():
 
 
 class _Known:
-    """What was measured, kept in a file."""
+    """What was measured, kept in a file; ends the command when its time is over."""
 
-    def __init__(self, path):
-        self._path = path
+    def __init__(self, path, end):
+        self._path, self.end = path, end
         self._values = json.loads(path.read_text()) if path.is_file() else {}
 
     def of(self, name, measure):
+        if time.monotonic() > self.end:
+            sys.exit("the time is over; call it again to go on")
         if name not in self._values:
-            self._values[name] = measure()
-            self._path.write_text(json.dumps(self._values, indent=1))
+            self.set(name, measure())
         return self._values[name]
+
+    def set(self, name, value):
+        self._values[name] = value
+        self._path.write_text(json.dumps(self._values, indent=1))
 
 
 def make(folder, scans, photos, seed=0):
@@ -111,14 +119,23 @@ def make(folder, scans, photos, seed=0):
     return {(scan, photo) for scan, own in enumerate(rooms) for photo, room in enumerate(shown) if own == room}
 
 
-def run_batch(folder, jobs):
-    """Run the batch from its beginning."""
+def run_batch(folder, jobs, before, end):
+    """Work on the batch until it is done or the time is over; add what it took to what it took before."""
     line = [sys.executable, "-m", "reflcolor_addon", "batch", str(folder / "batch.toml"), "--jobs", str(jobs)]
-    before, start = processor_time(), time.perf_counter()
-    done = subprocess.run([*line, "--keep-going"], check=False)
-    if done.returncode:
-        sys.exit(done.returncode)
-    return {"processor": processor_time() - before, "seconds": time.perf_counter() - start}
+    used, start = processor_time(), time.perf_counter()
+    with subprocess.Popen([*line, "--keep-going", "--resume"]) as process:
+        try:
+            status = process.wait(max(1.0, min(end - time.monotonic(), 1e6)))
+        except subprocess.TimeoutExpired:
+            process.terminate()
+            status = process.wait()
+    if status not in (0, 143):
+        sys.exit(status)
+    return {
+        "done": status == 0,
+        "processor": before.get("processor", 0.0) + processor_time() - used,
+        "seconds": before.get("seconds", 0.0) + time.perf_counter() - start,
+    }
 
 
 def rows(folder):

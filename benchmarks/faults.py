@@ -227,7 +227,7 @@ def wrong_end(number, status, said):
 
 
 @contextlib.contextmanager
-def _mounted(folder, *options):
+def mounted(folder, *options):
     """A disk of its own at a folder; gives False where this user may not mount."""
     folder.mkdir(exist_ok=True)
     done = subprocess.run(["mount", "-t", "tmpfs", *options, "none", folder], capture_output=True, check=False)
@@ -241,7 +241,7 @@ def _mounted(folder, *options):
 def _full(folder, _moments):
     prepare(folder)
     disk = folder / "disk"
-    with _mounted(disk, "-o", f"size={_FULL_KB}k") as allowed:
+    with mounted(disk, "-o", f"size={_FULL_KB}k") as allowed:
         if not allowed:
             yield "skipped: this user may not mount a small disk", []
             return
@@ -278,7 +278,7 @@ def _on_full_disk(folder, disk, suffix, options, scan):
 def _folders(folder, moments):
     prepare(folder)
     disk = folder / "disk"
-    with _mounted(disk, "-o", "ro") as allowed:
+    with mounted(disk, "-o", "ro") as allowed:
         if allowed:
             line, settings = _command(folder, "-o", "disk/out.png")
             done = subprocess.run(line, **settings, check=False, capture_output=True, text=True)

@@ -69,7 +69,7 @@ class Room:
             with np.errstate(divide="ignore", invalid="ignore"):
                 distance = ((corner - origin) @ normal) / (rays @ normal)
                 place = origin + distance[..., None] * rays - corner
-            along = [place @ side / np.linalg.norm(side) for side in (first, second)]
+                along = [place @ side / np.linalg.norm(side) for side in (first, second)]
             met = (distance > 1e-6) & (distance < nearest)
             for length, side in zip(along, (first, second), strict=True):
                 met &= (length >= 0) & (length <= np.linalg.norm(side))
@@ -80,7 +80,7 @@ class Room:
             nearest[met] = distance[met]
         return nearest, light, reflectance
 
-    def scan(self, rows=110, columns=180, step_deg=0.45, place=(0.0, 0.0), name="room"):
+    def scan(self, rows=80, columns=130, step_deg=0.6, place=(0.0, 0.0), name="room"):
         """The room as a scanner sees it that stands 1.5 m above the floor and looks ahead."""
         azimuth = np.radians((np.arange(columns) - (columns - 1) / 2) * step_deg)
         azimuth, elevation = np.meshgrid(azimuth, np.radians(((rows - 1) / 2 - np.arange(rows)) * step_deg - 4))
@@ -97,7 +97,7 @@ class Room:
             color=np.uint8(255 * np.clip(light, 0, 1)),
         )
 
-    def photo(self, number, width=320, height=240):
+    def photo(self, number, width=240, height=180):
         """A photo of the room, taken up to 0.6 m from the middle, about straight ahead: (height, width, 3) uint8."""
         rng = np.random.default_rng((self._number, 3, number))
         while True:

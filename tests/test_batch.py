@@ -26,7 +26,7 @@ from reflcolor_addon.batch.plan import IMAGE, Output, Plan
 from reflcolor_addon.batch.plan_document import as_document, from_document
 from reflcolor_addon.batch.read import safe_label
 from reflcolor_addon.cli.main import main
-from reflcolor_addon.errors import UsageError
+from reflcolor_addon.errors import OutputError, UsageError
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.readers.options import ReadOptions
 from reflcolor_addon.files.writers import write_ptx
@@ -241,6 +241,70 @@ def test_a_name_that_is_markup_is_shown_as_text(tmp_path, monkeypatch):
     assert main(["batch", "batch.toml", "--jobs", "1"]) == 0
     page = (tmp_path / "colored" / "report.html").read_text(encoding="utf-8")
     assert "<b>" not in page
+
+
+def test_many_scans_are_told_on_several_pages(archive, batch, monkeypatch):
+    batch()
+    monkeypatch.setattr("reflcolor_addon.report.archive._SCANS_ON_A_PAGE", 2)
+    assert main(["report", "colored"]) == 0
+    first, second = (archive / "colored" / name for name in ("report.html", "report 2.html"))
+    pages = [path.read_text(encoding="utf-8") for path in (first, second)]
+    assert [page.count("<tr data-state") for page in pages] == [2, 1]
+    assert all('href="report 2.html"' in page and 'href="report.html"' in page for page in pages)
+    assert len(table(archive)) == 3
+    monkeypatch.undo()
+    monkeypatch.chdir(archive)
+    assert main(["report", "colored"]) == 0
+    assert not second.exists() and "<nav" not in first.read_text(encoding="utf-8")
+
+
+def test_a_folder_that_vanishes_ends_the_batch_in_one_line(archive, batch, monkeypatch):
+    from reflcolor_addon.batch.archive import stage
+
+    kept = stage._kept
+
+    def kept_and_gone(*arguments):
+        outcome = kept(*arguments)
+        (archive / "colored").rename(archive / "away")
+        return outcome
+
+    monkeypatch.setattr(stage, "_kept", kept_and_gone)
+    status, _, err = batch("--keep-going")
+    assert status == 1 and err.count("error:") == 1
+    assert "colored: the output folder is gone; bring it back, and run the batch again with --resume" in err
+    (archive / "away").rename(archive / "colored")
+    monkeypatch.undo()
+    monkeypatch.chdir(archive)
+    status, out, _ = batch("--resume")
+    assert status == 0 and "2 done, 1 done before" in out
+
+
+def test_a_record_that_cannot_be_kept_costs_one_scan_and_no_other(archive, batch, monkeypatch):
+    from reflcolor_addon.batch.archive.done import Done
+
+    record = Done.record
+
+    def full(self, name, *arguments):
+        if name == "hall_1":
+            raise OutputError("{file}: cannot be written (No space left on device)", file="done")
+        record(self, name, *arguments)
+
+    monkeypatch.setattr(Done, "record", full)
+    status, out, err = batch("--keep-going")
+    assert status == 1 and "2 done, 0 done before, 1 failed" in out
+    assert "hall_1: failed: done: cannot be written (No space left on device)" in out and "hall_1" in err
+    monkeypatch.undo()
+    monkeypatch.chdir(archive)
+    assert "1 done, 2 done before" in batch("--resume")[1]
+
+
+def test_two_batches_share_the_work(archive, batch):
+    line, options = process_line("batch", "batch.toml", "--jobs", "1")
+    both = [subprocess.Popen(line, cwd=archive, stdout=subprocess.PIPE, **options) for _ in range(2)]
+    said = b"".join(process.communicate()[0] for process in both).decode()
+    assert [process.returncode for process in both] == [0, 0]
+    assert said.count(": done in") == 3
+    assert "0 done, 3 done before" in batch("--resume")[1]
 
 
 def test_reports_of_a_batch_name_their_outputs(archive, batch):

@@ -17,6 +17,8 @@ from ..view.preview import GUESS, INFERRED, OBSERVED, TILES
 from .provenance import outline, read_report
 
 REPORTS, PAGE, TABLE = "reports", "report.html", "report.csv"
+# A browser is slow with more; then there are several pages.
+_SCANS_ON_A_PAGE, _OTHER_PAGE = 1000, "report {number}.html"
 STATE, ITEMS = "batch-state", "items"
 """Where a batch's folder holds the reports, this page, its table, and what became of the items."""
 _COLUMNS = (
@@ -56,7 +58,7 @@ def write_page(root, session):
     Returns
     -------
     paths : list of Path
-        The page and the table.
+        The page and the table; of several pages the first, which leads to the others.
     failed : list of str
         The names of the scans that failed.
 
@@ -66,9 +68,8 @@ def write_page(root, session):
         If they cannot be written.
     """
     entries = _entries(root, session)
+    _write_pages(root, entries)
     page, table = root / PAGE, root / TABLE
-    with written_atomically(page) as temporary:
-        temporary.write_text(_page(root, entries), encoding="utf-8", errors="xmlcharrefreplace")
     text = io.StringIO(newline="")
     writer = csv.DictWriter(text, _COLUMNS, lineterminator="\n")
     writer.writeheader()
@@ -76,6 +77,33 @@ def write_page(root, session):
     with written_atomically(table) as temporary:
         temporary.write_text(text.getvalue(), encoding="utf-8", errors="backslashreplace", newline="")
     return [page, table], [entry["scan"] for entry in entries if entry["state"] == "failed"]
+
+
+def _write_pages(root, entries):
+    parts = [entries[start : start + _SCANS_ON_A_PAGE] for start in range(0, len(entries), _SCANS_ON_A_PAGE)] or [[]]
+    names = [PAGE, *(_OTHER_PAGE.format(number=number) for number in range(2, len(parts) + 1))]
+    for number, (name, part) in enumerate(zip(names, parts, strict=True)):
+        with written_atomically(root / name) as temporary:
+            text = _page(root, entries, part, _ways(names, parts, number))
+            temporary.write_text(text, encoding="utf-8", errors="xmlcharrefreplace")
+    for path in root.glob(_OTHER_PAGE.format(number="*")):
+        # Of an earlier time, when there were more.
+        if path.name not in names:
+            path.unlink(missing_ok=True)
+
+
+def _ways(names, parts, own):
+    """What leads from one page to the others; nothing where it is the only one."""
+    if len(names) == 1:
+        return ""
+    links = []
+    for number, (name, part) in enumerate(zip(names, parts, strict=True)):
+        here = ' aria-current="page"' if number == own else ""
+        links.append(f'<a href="{escape(name)}"{here}>{escape(part[0]["scan"])} to {escape(part[-1]["scan"])}</a>')
+    return (
+        f'<nav aria-label="Pages"><p>{" · ".join(links)}</p><p class="soft">Searching and sorting act on one page; '
+        f"{TABLE} holds all scans.</p></nav>"
+    )
 
 
 def _entries(root, session):
@@ -146,7 +174,7 @@ def _scans(count):
     return "1 scan" if count == 1 else f"{count} scans"
 
 
-def _page(root, entries):
+def _page(root, entries, part, ways):
     template = Template(files(__package__).joinpath("page.html").read_text(encoding="utf-8"))
     count = {state: sum(entry["state"] == state for entry in entries) for state in _STATES}
     parts = [f"{number} {_STATES[state]}" for state, number in count.items() if number]
@@ -154,7 +182,8 @@ def _page(root, entries):
     return template.substitute(
         title=escape(f"Colorized scans in {root.absolute().name}"),
         summary=escape(f"{_scans(len(entries))}: {', '.join(parts)}." if entries else "No scan was worked on yet."),
-        rows="\n".join(map(_row, entries)),
+        ways=ways,
+        rows="\n".join(map(_row, part)),
         version=escape(__version__),
         **{name: "#{:02x}{:02x}{:02x}".format(*rgb) for name, rgb in colors.items()},
     )

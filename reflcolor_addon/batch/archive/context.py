@@ -50,13 +50,13 @@ class Context:
                 found[str(path)] = ""
         return found
 
-    def work(self, tasks: list[Task], finished: Callable, what: str):
+    def work(self, tasks: list[Task], finished: Callable, what: str, begin: Callable = lambda task: True):
         """Run tasks and show their progress.
 
         Parameters
         ----------
         tasks : list of Task
-        finished : callable
+        finished, begin : callable
             As `Workers.work`.
         what : str
             What is done, for the line of progress.
@@ -79,5 +79,13 @@ class Context:
                 done += 1
             return stop
 
-        self.workers.work(tasks, counted, show)
+        def begun(task):
+            nonlocal done
+            if begin(task):
+                return True
+            left.add(task.cost)
+            done += 1
+            return False
+
+        self.workers.work(tasks, counted, show, begun)
         self.session.progress(left.share(), f"{what} {done} of {count}")

@@ -1,5 +1,6 @@
 """Records of finished work: one for each item and stage, and whether it is still valid."""
 
+import time
 from pathlib import Path
 
 from ..plan_document import as_document
@@ -36,12 +37,17 @@ class Done:
         """Record that something is done. It is called last, when the outputs exist."""
         outputs = {path: self._output(path) for path in outcome["written"]}
         kept = {name: outcome.get(name) for name in ("warnings", "left_out", "photos", "seconds")}
-        self._folder.remember(KIND, f"{name} {stage}", {"key": key, "outputs": outputs} | kept)
+        self._folder.remember(KIND, f"{name} {stage}", {"key": key, "ended": time.time(), "outputs": outputs} | kept)
 
-    def recall(self, name, stage, key=None):
-        """Return the record of finished, complete work, with this key if one is given; else None."""
+    def recall(self, name, stage, key=None, since=None):
+        """Return the record of finished, complete work, with this key if one is given; else None.
+
+        With ``since``, a time in seconds since 1970, work that was finished earlier does not count.
+        """
         record = self._folder.recall(KIND, f"{name} {stage}")
         if record is None or (key is not None and record.get("key") != key):
+            return None
+        if since is not None and not record.get("ended", 0.0) > since:
             return None
         outputs = record.get("outputs")
         if not isinstance(outputs, dict) or not all(

@@ -3,8 +3,8 @@
 from ...files.memory import readable
 from ...messages import Message
 from ..plan import RENDER
+from .candidates import MOST_SCANS
 from .costs import SECONDS_PER_LOOK, memory_of, pixels_of, seconds_of
-from .looks import MOST_SCANS
 from .progress_lines import duration
 
 _SECONDS_TO_RENDER = 8.0

@@ -2,9 +2,12 @@
 
 import hashlib
 import json
+import time
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+from ...errors import OutputError
 from ...geodesic.kernel import library_file
 from ...report.report import fingerprint, versions
 
@@ -23,7 +26,7 @@ class Fingerprints:
         self._folder = folder
         known = folder.recall("", _NAME) or {}
         self._known = {path: entry for path, entry in known.items() if isinstance(entry, list) and len(entry) == 3}
-        self._changed = False
+        self._changed, self._saved = False, 0.0
 
     def of(self, path, cancelled=None):
         """Return the hash of a file.
@@ -48,11 +51,16 @@ class Fingerprints:
             self._changed = True
         return entry[2]
 
-    def save(self):
-        """Keep what is known for the next time."""
-        if self._changed:
-            self._folder.remember("", _NAME, self._known)
-            self._changed = False
+    def save(self, every_s=0.0):
+        """Keep what is known for the next time, unless that was done less than so many seconds ago.
+
+        Where it cannot be kept, files are hashed again the next time.
+        """
+        if self._changed and time.monotonic() - self._saved >= every_s:
+            self._saved = time.monotonic()
+            with suppress(OutputError):
+                self._folder.remember("", _NAME, self._known)
+                self._changed = False
 
 
 @cache

@@ -1,8 +1,10 @@
 """The first stage of a batch: which of its photos are worth matching with which of its scans."""
 
+from ...files.exif import moment_of
+from ...files.readers.e57_file import acquired_at
 from ...messages import Message
+from .candidates import candidates
 from .costs import memory_of
-from .looks import candidates
 from .workers import Task
 
 
@@ -41,11 +43,18 @@ def photos_of_items(context, items, known_pairs):
     context.work([task for task in tasks if task.request["photos"]], finished, "Looked at photos for")
     for path, problem in problems.items():
         context.session.warnings.append(Message("{photo}: {problem}", photo=photos[path], problem=problem))
-    chosen = candidates(scores)
+    moments = {path: moment_of(path) for path in photos}
+    chosen = candidates(scores, moments, {item.name: _scanned_at(item) for item in items})
     return {
         item.name: [*known(item, True), *(known(item, None) if item.name in unseen else chosen.get(item.name, []))]
         for item in items
     }
+
+
+def _scanned_at(item):
+    """When the first scan of an item was taken that tells; None where none does."""
+    times = (acquired_at(path) for path in item.plan.scans if path.suffix.lower() == ".e57")
+    return next((time for time in times if time is not None), None)
 
 
 def _task(context, item, photos, hashes):

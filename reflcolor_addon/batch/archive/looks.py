@@ -6,16 +6,13 @@ from ...errors import Cancelled, ReflcolorError
 from ...files.images import read_image, write_png
 from ...files.readers import read_scans
 from ...matching.photo_image import PhotoImage
-from ...matching.registration.first_look import first_look
 from ...matching.registration.registration import ScanViews
 from .fingerprints import digest_of, program_digest
+from .first_look import first_look
 from .folder import BatchFolder
 
 KIND = "looks"
 _SKETCH_SIDE = 640
-# How many scans each photo of a batch is matched with at most, and how much lower their scores may be than the best
-# one's.
-MOST_SCANS, LEAST_SHARE = 4, 0.4
 
 
 def look_at(request, *, progress, cancelled):
@@ -60,37 +57,6 @@ def look_at(request, *, progress, cancelled):
     return {"scores": scores, "problems": problems}
 
 
-def candidates(scores):
-    """Choose which photos are matched with which scans.
-
-    Parameters
-    ----------
-    scores : dict of str to dict of str to float
-        For each item, by its name, what `look_at` gave.
-
-    Returns
-    -------
-    dict of str to list of str
-        For each item its photos, what looks best first.
-    """
-    # A scan with much detail gets higher scores with every photo; what counts is how much a photo stands out.
-    usual = {name: _median(list(own.values())) for name, own in scores.items()}
-    chosen = {name: [] for name in scores}
-    for photo in dict.fromkeys(path for own in scores.values() for path in own):
-        ranked = sorted(
-            ((own[photo] / max(usual[name], 1e-9), name) for name, own in scores.items() if photo in own),
-            key=lambda entry: (-entry[0], entry[1]),
-        )
-        best = ranked[0][0]
-        for share, name in ranked[:MOST_SCANS]:
-            if share > 0 and share >= LEAST_SHARE * best:
-                chosen[name].append((share, photo))
-    return {
-        name: [photo for _, photo in sorted(own, key=lambda entry: (-entry[0], entry[1]))]
-        for name, own in chosen.items()
-    }
-
-
 def _views(paths, progress, cancelled):
     views = []
     for path in paths:
@@ -112,8 +78,3 @@ def _sketch(folder, path, key):
         rgb = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
     write_png(kept, rgb)
     return rgb
-
-
-def _median(values):
-    values = sorted(values)
-    return values[len(values) // 2] if values else 0.0

@@ -2,11 +2,16 @@
 
 import time
 from contextlib import ExitStack
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
+from ...errors import OutputError, ReflcolorError
 from ...messages import Message
 from ...report.archive import ITEMS
-from .options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN
+from .options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, State
+from .passing import may_pass
+
+# The file of hashes covers the whole archive, so it is not rewritten after every scan.
+_SAVE_EVERY_S = 20.0
 
 
 def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
@@ -21,58 +26,114 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
     done : callable
         Called as ``done(state, outcome)`` when an item is done, before that is remembered.
     """
-    options, states = context.options, {}
-    with ExitStack() as claims:
-        tasks = []
-        for state, key, task in pieces:
-            if not claims.enter_context(context.folder.claimed(state.item.name)):
-                state.outcome = ELSEWHERE
-            elif options.resume and (record := context.done.recall(state.item.name, stage, key)) is not None:
-                state.outcome, state.left_out = KNOWN, record["left_out"] or []
-            else:
-                for later in STAGES[STAGES.index(stage) :]:
-                    context.done.forget(state.item.name, later)
-                states[task.name] = [state, key, 1]
-                tasks.append(task)
-        whole = len(tasks)
-        count = 0
+    options, states, tasks = context.options, {}, []
+    for state, key, task in pieces:
+        if options.resume and _is_known(context, stage, state, key):
+            continue
+        states[task.name] = _Piece(state, key)
+        tasks.append(task)
+    whole, count = len(tasks), 0
 
-        def finished(task, outcome):
-            nonlocal count
-            state, key, tries = states[task.name]
-            if not outcome["done"] and outcome.get("may_pass") and tries < options.tries:
-                states[task.name][2] += 1
-                tasks.append(replace(task, not_before=time.monotonic() + options.wait_s))
-                context.session.say(
-                    Message("{name}: {problem}; trying again", name=state.item.name, problem=_bare(outcome["error"]))
-                )
+    def begin(task):
+        piece = states[task.name]
+        _require_folder(context)
+        # An item that waits for another try stays locked.
+        if piece.claim is None:
+            claim = ExitStack()
+            if not claim.enter_context(context.folder.claimed(piece.state.item.name)):
+                piece.state.outcome = ELSEWHERE
                 return False
-            count += 1
-            state.left_out = outcome.get("left_out", [])
-            if outcome["done"]:
-                done(state, outcome)
-                context.done.record(state.item.name, stage, key, outcome)
-                context.fingerprints.save()
-                state.outcome = DONE if outcome["written"] or not state.left_out else UNSHOWN
-            elif not outcome.get("cancelled"):
-                state.outcome, state.error = FAILED, outcome["error"]
-            remember_item(context, state)
-            _write_log(task, outcome)
-            context.session.say(_line(state, outcome, count, whole))
-            return state.outcome == FAILED and not options.keep_going
+            if _is_known(context, stage, piece.state, piece.key, since=start):
+                claim.close()
+                return False
+            piece.claim = claims.enter_context(claim)
+            for later in STAGES[STAGES.index(stage) :]:
+                context.done.forget(piece.state.item.name, later)
+        return True
 
-        context.work(tasks, finished, {"color": "Colorized", "render": "Rendered"}[stage])
-    for state, _, _ in states.values():
+    def finished(task, outcome):
+        nonlocal count
+        piece = states[task.name]
+        state = piece.state
+        if outcome["done"]:
+            outcome = _kept(context, stage, piece, outcome, done)
+        if not outcome["done"] and outcome.get("may_pass") and piece.tries < options.tries:
+            piece.tries += 1
+            alone = outcome.get("alone", False)
+            wait = 0.0 if alone else options.wait_s
+            tasks.append(replace(task, not_before=time.monotonic() + wait, alone=alone))
+            context.session.say(
+                Message("{name}: {problem}; trying again", name=state.item.name, problem=_bare(outcome["error"]))
+            )
+            return False
+        count += 1
+        state.left_out = outcome.get("left_out", [])
+        if outcome["done"]:
+            state.outcome = DONE if outcome["written"] or not state.left_out else UNSHOWN
+        elif not outcome.get("cancelled"):
+            state.outcome, state.error = FAILED, outcome["error"]
+        remember_item(context, state)
+        _write_log(task, outcome)
+        context.session.say(_line(state, outcome, count, whole))
+        piece.claim.close()
+        _require_folder(context)
+        return state.outcome == FAILED and not options.keep_going
+
+    start = time.time()
+    with ExitStack() as claims:
+        context.work(tasks, finished, {"color": "Colorized", "render": "Rendered"}[stage], begin)
+    for state in (piece.state for piece in states.values()):
         if state.outcome == FAILED:
             context.session.warnings.append(
                 Message("{name}: {problem}", name=state.item.name, problem=_bare(state.error))
             )
 
 
+@dataclass(eq=False)
+class _Piece:
+    """An item in progress: its key, the number of tries, and the lock that keeps other batches away."""
+
+    state: State
+    key: str
+    tries: int = 1
+    claim: ExitStack | None = None
+
+
+def _is_known(context, stage, state, key, since=None):
+    """Whether an item is already done; with ``since``, whether another batch has done it since then."""
+    record = context.done.recall(state.item.name, stage, key, since)
+    if record is not None:
+        state.outcome, state.left_out = KNOWN, record["left_out"] or []
+    return record is not None
+
+
+def _kept(context, stage, piece, outcome, done):
+    """Record that an item is done; return its outcome, which becomes a failure if that cannot be recorded."""
+    try:
+        done(piece.state, outcome)
+        context.done.record(piece.state.item.name, stage, piece.key, outcome)
+        context.fingerprints.save(_SAVE_EVERY_S)
+    except ReflcolorError as error:
+        return outcome | {"done": False, "error": str(error), "may_pass": may_pass(error)}
+    return outcome
+
+
+def _require_folder(context):
+    """Raise OutputError if the output folder is gone: no further result could be written."""
+    if not context.folder.root.is_dir():
+        raise OutputError(
+            "{folder}: the output folder is gone; bring it back, and run the batch again with --resume",
+            folder=context.folder.root,
+        )
+
+
 def remember_item(context, state):
-    """Record the outcome of an item, for the report of the whole batch."""
+    """Record the outcome of an item, for the report of the whole batch; if that fails, the others go on."""
     document = {"outcome": state.outcome, "error": state.error, "left_out": state.left_out}
-    context.folder.remember(ITEMS, state.item.name, document)
+    try:
+        context.folder.remember(ITEMS, state.item.name, document)
+    except OutputError as error:
+        context.session.warnings.append(error.message)
 
 
 def _line(state, outcome, count, whole):

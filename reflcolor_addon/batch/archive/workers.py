@@ -41,6 +41,8 @@ class Task:
         Where the worker's other lines go.
     not_before : float
         When it may begin, as `time.monotonic` counts.
+    alone : bool
+        Whether nothing else may run meanwhile.
     """
 
     name: str
@@ -50,6 +52,7 @@ class Task:
     cost: float = 1.0
     log: Path | None = None
     not_before: float = 0.0
+    alone: bool = False
 
 
 @dataclass(eq=False)
@@ -106,7 +109,7 @@ class Workers:
                 worker.log.close()
         self._processes.clear()
 
-    def work(self, tasks, finished, progress):
+    def work(self, tasks, finished, progress, begin=lambda task: True):
         """Do tasks, as many at once as workers and memory allow.
 
         Parameters
@@ -118,6 +121,8 @@ class Workers:
             where it died. True ends the work: what runs is finished, nothing more is started.
         progress : callable
             Called several times a second with a list of (task, fraction, text) of what runs.
+        begin : callable
+            Called as ``begin(task)`` before a task is given to a worker; False drops it.
 
         Raises
         ------
@@ -131,7 +136,7 @@ class Workers:
             if self._cancelled():
                 raise Cancelled
             if not stopping:
-                self._start(tasks)
+                self._start(tasks, begin)
             running = [worker for worker in self._processes if worker.task is not None]
             if not running and (stopping or not tasks):
                 return
@@ -155,7 +160,8 @@ class Workers:
                 worker.process.stdin.close()
             if worker.task is None:
                 return None
-            return {"done": False, "error": f"its process ended ({_ending(status)})", "may_pass": True}
+            # A system that is short of memory kills what takes most of it: the next time it has all to itself.
+            return {"done": False, "error": f"its process ended ({_ending(status)})", "may_pass": True, "alone": True}
         if worker.task is None:
             return None
         if "progress" in answer:
@@ -163,18 +169,26 @@ class Workers:
             return None
         return answer
 
-    def _start(self, tasks):
+    def _start(self, tasks, begin):
         """Give tasks to workers that have none."""
         while tasks:
-            running = [worker for worker in self._processes if worker.task is not None]
-            used, now = sum(worker.task.memory for worker in running), time.monotonic()
-            due = (task for task in tasks if task.not_before <= now)
-            fitting = (task for task in due if not running or used + task.memory <= self._memory)
-            task = next(fitting, None)
+            running = [worker.task for worker in self._processes if worker.task is not None]
+            task = self._next(tasks, running)
             if len(running) >= self._count or task is None:
                 return
             tasks.remove(task)
-            self._give(self._idle(task.needs_blender), task)
+            if begin(task):
+                self._give(self._idle(task.needs_blender), task)
+
+    def _next(self, tasks, running):
+        """The first task that may begin beside those that run; None where there is none."""
+        now, used = time.monotonic(), sum(task.memory for task in running)
+        due = (task for task in tasks if task.not_before <= now)
+        if not running:
+            return next(due, None)
+        if any(task.alone for task in running):
+            return None
+        return next((task for task in due if not task.alone and used + task.memory <= self._memory), None)
 
     def _idle(self, in_blender):
         # A worker whose input is closed is about to end, which is noticed like the end of any other.

@@ -11,7 +11,7 @@ from ...batch.archive.manifest import load_manifest
 from ...batch.archive.options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, Options
 from ...batch.archive.pairs import read_pairs
 from ...batch.archive.run import run_batch
-from ...errors import Cancelled, ReflcolorError, UsageError
+from ...errors import Cancelled, OutputError, ReflcolorError, UsageError
 from ...files.memory import available_bytes
 from ...messages import Message
 from ...report.archive import write_page
@@ -96,9 +96,19 @@ def run(arguments, session):
         session.complain(f"{arguments.input}: interrupted; run it again with --resume to go on")
         raise
     if first is None and len(options.stages) == len(STAGES):
-        for path in write_page(manifest.folder.root, session)[0]:
-            session.say(Message("wrote {path}", path=path))
+        _write_page(manifest.folder.root, states, session)
     _tell(states, arguments, session)
+
+
+def _write_page(root, states, session):
+    """Write the page; where scans have failed, that they did is told first."""
+    try:
+        for path in write_page(root, session)[0]:
+            session.say(Message("wrote {path}", path=path))
+    except OutputError as error:
+        if not any(state.outcome == FAILED for state in states):
+            raise
+        session.complain(str(error))
 
 
 def _tell(states, arguments, session):

@@ -1,11 +1,15 @@
 """What an E57 file says of itself, before native code sees it: its header and its XML section."""
 
-from ...errors import ScanError
+from pathlib import Path
+
+from ...errors import ReflcolorError, ScanError
 from ...messages import one_line
 from ...scan.limits import LONGEST_NAME
 from ..e57_pages import HEADER, PAGE, PAYLOAD, contents, first_bad_page
-from ..gate import size_of
+from ..gate import opened, size_of
 from .e57_xml import parse_xml
+
+_GPS_BEGAN_S = 315_964_800.0
 
 
 def read_structure(file, path, cancelled=None):
@@ -107,3 +111,19 @@ def scan_name(node, path, index, count):
     text = " ".join(stored.text.split()) if stored is not None and stored.kind == "String" else ""
     text = "".join(letter for letter in text[: 4 * LONGEST_NAME] if letter.isprintable())
     return one_line(text, LONGEST_NAME) or (path.stem if count == 1 else f"{path.stem} {index + 1}")
+
+
+def acquired_at(path):
+    """Return when the first scan of an E57 file began that tells, in seconds since 1970; None where none does.
+
+    A file that cannot be read tells nothing: its reader says why.
+    """
+    path = Path(path)
+    try:
+        with opened(path, "a scan") as file:
+            root, _ = read_structure(file, path)
+            times = (node.number("acquisitionStart", "dateTimeValue") for node in scan_nodes(root, path))
+            # GPS time began in 1980; its leap seconds do not matter here.
+            return next((_GPS_BEGAN_S + time for time in times if time), None)
+    except ReflcolorError:
+        return None

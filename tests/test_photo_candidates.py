@@ -1,0 +1,112 @@
+"""Which photos a batch matches with which scans: by their looks, and by when and where they were taken."""
+
+import struct
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+from e57_samples import write_e57
+
+from reflcolor_addon.batch.archive.candidates import MOST_SCANS, candidates
+from reflcolor_addon.files.exif import Moment, moment_of
+from reflcolor_addon.files.readers.e57_file import acquired_at
+
+NOON = "2024:05:17 12:00:00"
+_NOON_S = datetime(2024, 5, 17, 12, tzinfo=UTC).timestamp()
+
+
+def exif(order, taken=None, place=None):
+    """A block of Exif, written by hand after the standard: a main directory, that of the camera, that of GPS."""
+    text = (taken or "").encode() + b"\0"
+    at = 8 + 2 + 2 * 12 + 4
+    camera = struct.pack(order + "H", 1) + struct.pack(order + "HHII", 0x9003, 2, len(text), at + 18)
+    camera += bytes(4) + text + bytes(len(text) % 2)
+    gps_at, gps = at + len(camera), b""
+    if place is not None:
+        far = gps_at + 2 + 4 * 12 + 4
+        entries = []
+        for tag, value, sides in ((1, place[0], "NS"), (3, place[1], "EW")):
+            entries.append(struct.pack(order + "HHI4s", tag, 2, 2, sides[value < 0].encode() + bytes(3)))
+            entries.append(struct.pack(order + "HHII", tag + 1, 5, 3, far + 12 * (tag - 1)))
+            minutes = round(abs(value) % 1 * 60 * 10000)
+            gps += struct.pack(order + "6I", int(abs(value)), 1, minutes, 10000, 0, 1)
+        gps = struct.pack(order + "H", 4) + b"".join(entries) + bytes(4) + gps
+    main = struct.pack(order + "H", 2) + struct.pack(order + "HHII", 0x8769, 4, 1, at)
+    main += struct.pack(order + "HHII", 0x8825 if gps else 0x8824, 4, 1, gps_at)
+    return {"<": b"II", ">": b"MM"}[order] + struct.pack(order + "HI", 42, 8) + main + bytes(4) + camera + gps
+
+
+def photo(path, block):
+    """A photo with a block of Exif, which OpenCV writes into it."""
+    import cv2
+
+    rgb = np.zeros((8, 8, 3), np.uint8)
+    done, data = cv2.imencodeWithMetadata(path.suffix, rgb, [cv2.IMAGE_METADATA_EXIF], [np.frombuffer(block, np.uint8)])
+    assert done
+    path.write_bytes(data.tobytes())
+    return path
+
+
+@pytest.mark.parametrize("suffix", [".jpg", ".png"])
+@pytest.mark.parametrize("order", ["<", ">"])
+def test_a_photo_tells_when_and_where_it_was_taken(tmp_path, suffix, order):
+    moment = moment_of(photo(tmp_path / f"a{suffix}", exif(order, NOON, (-33.5, 151.25))))
+    assert moment.seconds == _NOON_S
+    assert (moment.latitude, moment.longitude) == pytest.approx((-33.5, 151.25), abs=1e-5)
+
+
+def test_a_photo_without_a_date_a_place_or_sense_tells_nothing(tmp_path):
+    assert moment_of(photo(tmp_path / "a.jpg", exif("<"))) == Moment()
+    block = exif("<", NOON, (1.5, 2.5))
+    for end in range(0, len(block), 3):
+        path = tmp_path / "cut.jpg"
+        path.write_bytes(b"\xff\xd8\xff\xe1" + struct.pack(">H", end + 8) + b"Exif\0\0" + block[:end])
+        assert isinstance(moment_of(path), Moment)
+    assert moment_of(tmp_path / "missing.jpg") == Moment()
+
+
+def test_a_scan_tells_when_it_was_taken(tmp_path):
+    path, fields = tmp_path / "a.e57", {f"cartesian{axis}": np.zeros(1) for axis in "XYZ"}
+    write_e57(path, {"fields": fields}, {"fields": fields, "acquisitionStart": {"dateTimeValue": 86400.0}})
+    assert acquired_at(path) == datetime(1980, 1, 7, tzinfo=UTC).timestamp()
+    write_e57(path, {"fields": fields})
+    assert acquired_at(path) is None
+    assert acquired_at(tmp_path / "missing.e57") is None
+
+
+def test_a_photo_goes_to_the_scans_that_it_looks_most_like():
+    scores = {f"scan {number}": {"a": 10.0 + number, "b": 1.0, "c": 1.0} for number in range(MOST_SCANS + 2)}
+    chosen = candidates(scores)
+    assert [name for name, photos in chosen.items() if "a" in photos] == list(scores)[2:]
+
+
+def test_a_scan_with_much_detail_does_not_take_all_photos():
+    scores = {"detailed": {"a": 50.0, "b": 52.0, "c": 48.0}, "plain": {"a": 1.0, "b": 1.0, "c": 9.0}}
+    assert "c" in candidates(scores)["plain"]
+    assert "c" not in candidates(scores)["detailed"]
+
+
+# By its looks alone, "b" goes to the cellar.
+_UNSURE = {"hall": {"a": 9.0, "b": 1.0, "c": 1.0}, "cellar": {"a": 1.0, "b": 3.0, "c": 1.0}}
+
+
+def test_photos_taken_together_go_to_the_same_scan():
+    assert "b" not in candidates(_UNSURE)["hall"]
+    for moments in (
+        {"a": Moment(seconds=0.0), "b": Moment(seconds=50.0)},
+        {"a": Moment(latitude=50.0, longitude=8.0), "b": Moment(latitude=50.00005, longitude=8.0)},
+    ):
+        assert "b" in candidates(_UNSURE, moments)["hall"]
+    for moments in (
+        {"a": Moment(seconds=0.0), "b": Moment(seconds=5000.0)},
+        {"a": Moment(latitude=50.0, longitude=8.0), "b": Moment(latitude=50.1, longitude=8.0)},
+        {"a": Moment(), "b": Moment()},
+    ):
+        assert candidates(_UNSURE, moments) == candidates(_UNSURE)
+
+
+def test_a_scan_of_the_photos_day_comes_first():
+    scores = {"hall": {"a": 3.0, "b": 1.0, "c": 1.0}, "cellar": {"a": 9.0, "b": 1.0, "c": 1.0}}
+    taken, day = {"a": Moment(seconds=0.0)}, 86400.0
+    assert "a" not in candidates(scores, taken, {"hall": 0.0, "cellar": 0.0})["hall"]
+    assert "a" in candidates(scores, taken, {"hall": 0.0, "cellar": 30 * day})["hall"]
