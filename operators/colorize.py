@@ -5,7 +5,8 @@ import bpy
 from ..reflcolor_addon.batch.pipeline import colorize_jobs
 from ..reflcolor_addon.batch.scan_job import ScanJob
 from .scene import polls
-from .scene.colorized_object import show_colorization
+from .scene.colorized_object import showing_colorization
+from .scene.images import packed_pixels
 from .scene.notices import show_result, show_results
 from .scene.photo_colors import observed_reader, use_cameras
 from .scene.provenance import record_provenance, window_report
@@ -37,29 +38,33 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
 
         def work(progress, cancelled):
             colorize_jobs(jobs, self._settings, progress=progress, cancelled=cancelled)
-            return jobs
+            return [(job, packed_pixels(job.colorization.rgb, job.name)) for job in jobs]
 
         return work
 
-    def finish(self, context, jobs):
+    def finish(self, context, results):
         keep_used_settings(self, context.scene, COLORIZE_NAMES)
         done = []
-        for job in jobs:
+        for job, picture in results:
             obj = bpy.data.objects.get(job.name)
             if obj is None or (obj.reflcolor.rows, obj.reflcolor.cols) != job.colorization.rgb.shape[:2]:
                 self.report({"WARNING"}, report_text("{name} is gone; its colors were dropped", name=job.name))
                 continue
             # Raises if a mesh cannot take them, before any mesh is changed.
             grid_indices(obj)
-            done.append((obj, job))
-        for obj, job in done:
+            done.append((obj, job, picture))
+        return self._write(done, one_of_several=len(results) > 1)
+
+    def _write(self, done, *, one_of_several):
+        for obj, job, picture in done:
             result = job.colorization
-            show_colorization(obj, result)
+            yield from showing_colorization(obj, result, picture)
             use_cameras(obj)
             record_provenance(obj, window_report(obj, result, self._settings, job.seeds))
             said = report_text("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
-            show_result(self, obj, said, result.warnings, job.seeds, one_of_several=len(jobs) > 1)
-        objects = [obj for obj, _ in done]
+            show_result(self, obj, said, result.warnings, job.seeds, one_of_several=one_of_several)
+            yield
+        objects = [obj for obj, _, _ in done]
         names = ", ".join(obj.name for obj in objects)
         together = report_text("Colorized {count} scans: {names}", count=len(objects), names=names)
         show_results(self, objects, together, self._skipped)

@@ -3,6 +3,7 @@
 import bpy
 
 from .scene import polls
+from .scene.reports import call
 from .scene.texts import report_text
 
 
@@ -19,7 +20,7 @@ class REFLCOLOR_OT_delete_picked(bpy.types.Operator):
 
     def invoke(self, context, _event):
         if bpy.ops.reflcolor.delete_seeds.poll():
-            return bpy.ops.reflcolor.delete_seeds("EXEC_DEFAULT", True)
+            return call(self, bpy.ops.reflcolor.delete_seeds)
         self.report({"INFO"}, report_text("Select a seed first"))
         return {"CANCELLED"}
 

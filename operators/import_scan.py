@@ -18,12 +18,12 @@ from ..reflcolor_addon.messages import Message
 from ..reflcolor_addon.report.report import input_entry, scan_entry
 from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.scan.object_arrays import object_arrays
+from .scene.add_scan import adding_scan_object, scan_images
 from .scene.notices import show_result
 from .scene.pair_preview import draw_preview, picked_files
 from .scene.photos import add_photos, photo_file
 from .scene.provenance import record_import
 from .scene.reading_properties import ReadingProperties
-from .scene.scan_object import add_scan_object
 from .scene.texts import report_text
 from .scene.viewpoint import show_imported
 from .window.folders import open_in, was_picked
@@ -200,7 +200,8 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             inputs = [input_entry("scan", file, cancelled) for file in scan_files(path)]
             for index, scan in enumerate(scans, 1):
                 entry = scan_entry(scan, index, reading=reading)
-                yield object_arrays(scan, **options), entry, inputs, (*scan.warnings, *doubts)
+                arrays = object_arrays(scan, **options)
+                yield arrays, scan_images(arrays), entry, inputs, (*scan.warnings, *doubts)
 
         return work
 
@@ -214,8 +215,8 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
                 inside.append(
                     report_text("Photos inside {name}, now on the list of photos: {count}", name=name, count=count)
                 )
-        for arrays, entry, inputs, warnings in scans:
-            obj = add_scan_object(context, arrays)
+        for arrays, images, entry, inputs, warnings in scans:
+            obj = yield from adding_scan_object(context, arrays, images)
             record_import(obj, entry, inputs, warnings)
             # Messages about the rest of the file are reported with its first scan.
             show_result(
@@ -223,6 +224,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             )
             added.append(obj)
             inside, doubts = [], []
+            yield
         for obj in added:
             obj.select_set(True)
         show_imported(context, added)

@@ -7,7 +7,7 @@ from ..reflcolor_addon.batch.scan_job import ScanJob
 from ..reflcolor_addon.errors import SeedsError
 from ..reflcolor_addon.matching import draw_matches
 from .scene import polls
-from .scene.images import write_image
+from .scene.images import packed_pixels, write_packed
 from .scene.notices import show_result, show_results
 from .scene.photo_colors import keep_cameras, keep_observed
 from .scene.photo_list import listed_images
@@ -55,7 +55,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
 
         def work(progress, cancelled):
             find_seeds(jobs, photos, settings, progress=progress, cancelled=cancelled)
-            return [(job, draw_matches(job.scan, photos, job.seeds)) for job in jobs]
+            return [(job, packed_pixels(draw_matches(job.scan, photos, job.seeds), job.name)) for job in jobs]
 
         return work
 
@@ -79,7 +79,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
             found = [(images[photo.name], photo) for photo in job.matching.photos if images.get(photo.name)]
             keep_verdicts(obj, found)
             record_matching(obj, job.matching, self._settings, MATCH_NAMES)
-            obj.reflcolor.matches_image = write_image(
+            obj.reflcolor.matches_image = write_packed(
                 own_image(obj, "matches_image"), f"{obj.name} Matches", picture, is_data=False
             )
             self._tell(obj, job.matching, one_of_several=len(results) > 1)

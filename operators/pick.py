@@ -5,6 +5,7 @@ from bpy.props import EnumProperty
 
 from ..reflcolor_addon.view.picking import clamped_point
 from .scene.editor_images import event_side
+from .scene.reports import call
 from .scene.texts import report_text
 
 
@@ -37,27 +38,23 @@ class REFLCOLOR_OT_pick(bpy.types.Operator):
         side.activate(context)
         hit = side.hit(place) if self.act != "sample" else None
         if self.act == "delete":
-            return {"CANCELLED"} if hit is None else bpy.ops.reflcolor.remove_seed("EXEC_DEFAULT", True, index=hit)
+            return {"CANCELLED"} if hit is None else call(self, bpy.ops.reflcolor.remove_seed, index=hit)
         if hit is not None:
             extend = self.act == "extend"
-            return bpy.ops.reflcolor.select_seed("EXEC_DEFAULT", True, index=hit, extend=extend)
+            return call(self, bpy.ops.reflcolor.select_seed, index=hit, extend=extend)
         if self.act == "extend":
             return {"CANCELLED"}
         xy = side.view.to_image(place)
         if tuple(xy) != clamped_point(xy, side.image.size):
             # A click beside the image deselects all, as in other editors.
             return (
-                bpy.ops.reflcolor.select_all_seeds("EXEC_DEFAULT", True, which="none")
-                if side.marks()[0].size
-                else {"CANCELLED"}
+                call(self, bpy.ops.reflcolor.select_all_seeds, which="none") if side.marks()[0].size else {"CANCELLED"}
             )
         if self.act == "pick" and side.is_scan:
             row, col = side.pixel(place)
-            return bpy.ops.reflcolor.place_seed("EXEC_DEFAULT", True, row=row, col=col)
+            return call(self, bpy.ops.reflcolor.place_seed, row=row, col=col)
         sample = side.is_scan or self.act == "sample"
-        return bpy.ops.reflcolor.pick_color(
-            "EXEC_DEFAULT", True, photo=side.image.name, photo_xy=xy, sample_only=sample
-        )
+        return call(self, bpy.ops.reflcolor.pick_color, photo=side.image.name, photo_xy=xy, sample_only=sample)
 
 
 classes = (REFLCOLOR_OT_pick,)

@@ -8,6 +8,7 @@ from mathutils import Vector
 from ..reflcolor_addon.view.picking import corner_nearest, nearest_within
 from .scene import polls
 from .scene.editor_images import HIT_RADIUS
+from .scene.reports import call, reported
 from .scene.scan_object import seed_vertices
 from .scene.seed_arrays import seed_arrays
 from .scene.texts import report_text
@@ -27,18 +28,23 @@ class REFLCOLOR_OT_pick_in_view(bpy.types.Operator):
         return polls.has_own_scan(cls, context)
 
     def invoke(self, context, event):
-        obj, place = polls.scan_object(context), (event.mouse_region_x, event.mouse_region_y)
+        self._at = event.mouse_region_x, event.mouse_region_y
+        return self._pick(context)
+
+    @reported
+    def _pick(self, context):
+        obj, place = polls.scan_object(context), self._at
         hit = _seed_at(context, obj, place)
         if self.delete:
-            return {"CANCELLED"} if hit is None else bpy.ops.reflcolor.remove_seed("EXEC_DEFAULT", True, index=hit)
+            return {"CANCELLED"} if hit is None else call(self, bpy.ops.reflcolor.remove_seed, index=hit)
         if hit is not None:
-            return bpy.ops.reflcolor.select_seed("EXEC_DEFAULT", True, index=hit)
+            return call(self, bpy.ops.reflcolor.select_seed, index=hit)
         vertex = _vertex_at(context, obj, place)
         if vertex is None:
             self.report({"INFO"}, report_text("Click on {name}", name=obj.name))
             return {"CANCELLED"}
         pixel = {name: obj.data.attributes[f"grid_{name}"].data[vertex].value for name in ("row", "col")}
-        return bpy.ops.reflcolor.place_seed("EXEC_DEFAULT", True, **pixel)
+        return call(self, bpy.ops.reflcolor.place_seed, **pixel)
 
 
 def _seed_at(context, obj, place):

@@ -27,8 +27,8 @@ class Looking(Step):
         shading = context.space_data.shading
         if shading.type != "SOLID":
             layout.label(text="Maps show in Solid shading", icon="INFO")
-        elif shown and LOOKS[shown].values:
-            # Under studio light a color is not quite the legend's.
+        elif shown and shown != "gray":
+            # Under studio light a color is not quite the legend's, or that of a picture.
             layout.row().prop(shading, "light", expand=True)
 
 

@@ -25,8 +25,8 @@ class Renderer:
         zip_file = build.zip_path(build.host_platform(), (build.running_python(),))
         self._bpy = self._session.start(zip_file, folder / "blender")
         self._path = folder / "render.png"
-        names = ("scan_object", "render")
-        self._objects, self._render = (
+        names = ("scan_object", "add_scan", "render")
+        self._objects, self._adding, self._render = (
             importlib.import_module(f"{self._session.EXTENSION}.operators.scene.{name}") for name in names
         )
         core = importlib.import_module(f"{self._session.EXTENSION}.reflcolor_addon.scan.object_arrays")
@@ -49,7 +49,7 @@ class Renderer:
         bpy, objects = self._bpy, self._objects
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         context = bpy.context
-        made = [objects.add_scan_object(context, self._object_arrays(scan)) for scan in scans]
+        made = [self._adding.add_scan_object(context, self._object_arrays(scan)) for scan in scans]
         for item, scan, rgb in zip(made, scans, colors, strict=True) if colors else ():
             objects.add_colors(item, objects.COLORIZED, rgb[scan.valid])
             objects.show_colors(item, objects.COLORIZED)

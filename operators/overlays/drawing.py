@@ -97,7 +97,7 @@ def forget_shaders():
 
 
 def mark_batch(points, colors, opacity, styles):
-    """Return a batch of marks.
+    """Return a batch of marks; None where there are none.
 
     Parameters
     ----------
@@ -110,6 +110,8 @@ def mark_batch(points, colors, opacity, styles):
         Sums of SELECTED, ACTIVE, FOUND, UNCOLORED, LOCKED.
     """
     count = len(points)
+    if not count:
+        return None
     places = np.zeros((count, 3), np.float32)
     places[:, : np.shape(points)[1]] = points
     content = {
@@ -121,7 +123,9 @@ def mark_batch(points, colors, opacity, styles):
 
 
 def draw_marks(batch, size, view=None):
-    """Draw a batch of marks, in the view of an image or, without one, in the world."""
+    """Draw what `mark_batch` made, in the view of an image or, without one, in the world."""
+    if batch is None:
+        return
     shader = _mark_shader()
     gpu.state.blend_set("ALPHA")
     gpu.state.program_point_size_set(True)

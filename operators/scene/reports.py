@@ -3,7 +3,27 @@
 from functools import wraps
 
 from ...reflcolor_addon.failures import line_of
+from .blender_errors import blender_reason
 from .texts import shown
+
+
+def call(operator, act, **arguments):
+    """Have another operator act for one, with an undo step of its own; what it refuses is told as the first one's.
+
+    Parameters
+    ----------
+    operator : bpy.types.Operator
+    act : callable
+        One of ``bpy.ops``.
+    """
+    try:
+        return act("EXEC_DEFAULT", True, **arguments)
+    except RuntimeError as error:
+        # A defect of the other one surfaces.
+        if "Traceback" in str(error):
+            raise
+        operator.report({"ERROR"}, blender_reason(error))
+        return {"CANCELLED"}
 
 
 def reported(execute):

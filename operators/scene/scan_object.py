@@ -4,16 +4,11 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
-from mathutils import Matrix
 
 from ...reflcolor_addon.errors import ScanError
-from ...reflcolor_addon.scan.georeference import origin_shift, rigid_pose
+from ...reflcolor_addon.scan.georeference import rigid_pose
 from ...reflcolor_addon.scan.scan import Scan
-from ...reflcolor_addon.settings import DEFAULT_PRESET
-from .collections import SCANS, own_collection
-from .images import write_image
-from .kept_settings import keep_settings
-from .nodes import color_node, node_tree_of, show_in_material
+from .nodes import show_in_material
 
 GRAY = "Reflectance_Gray"
 COLORIZED = "Colorized"
@@ -34,51 +29,7 @@ CENTER, MAX_INCIDENCE = "reflcolor_center", "reflcolor_max_incidence"
 RETURNS = "reflcolor_returns"
 # Custom property of objects whose colors are all guesses, not seen by any verified photo.
 GUESSED = "reflcolor_guessed"
-_KINDS = {np.float32: "FLOAT", np.int32: "INT"}
-
-
-def add_scan_object(context, arrays):
-    """Make the object of a scan, with mesh, attributes, images and material; select it and make it active.
-
-    Parameters
-    ----------
-    context : bpy.types.Context
-    arrays : ObjectArrays
-    """
-    scene = context.scene
-    keep_settings(DEFAULT_PRESET, [scene])
-    pose = arrays.pose.copy()
-    shift = origin_shift(pose[:3, 3], scene.get(SHIFT))
-    pose[:3, 3] = (pose[:3, 3] - shift) * arrays.units_per_meter
-
-    mesh = bpy.data.meshes.new(arrays.name)
-    _fill_mesh(mesh, arrays)
-    obj = bpy.data.objects.new(arrays.name, mesh)
-    obj.matrix_world = Matrix(pose)
-    # Stored as doubles: a shift of six digits does not fit into a float property.
-    obj[SHIFT] = scene[SHIFT] = shift.tolist()
-    mesh[CENTER], mesh[MAX_INCIDENCE] = arrays.center.tolist(), arrays.max_incidence_deg
-    mesh[RETURNS] = len(mesh.vertices)
-    state = obj.reflcolor
-    state.rows, state.cols = arrays.shape
-    state.source = str(arrays.source or "")
-    name = f"{arrays.name} Reflectance"
-    state.reflectance_image = write_image(None, name, arrays.reflectance_image, is_data=False)
-    state.range_image = write_image(None, f"{arrays.name} Range", arrays.range_image, is_data=True)
-    for image in (state.reflectance_image, state.range_image):
-        image.display_aspect = (arrays.pixel_aspect, 1.0)
-    add_colors(obj, GRAY, arrays.gray)
-    if arrays.scanned is not None:
-        add_colors(obj, SCANNED, arrays.scanned)
-    mesh.materials.append(_material(arrays.name))
-    show_colors(obj, GRAY)
-
-    own_collection(context, SCANS).objects.link(obj)
-    for other in context.selected_objects:
-        other.select_set(False)
-    obj.select_set(True)
-    context.view_layer.objects.active = obj
-    return obj
+KINDS = {np.float32: "FLOAT", np.int32: "INT"}
 
 
 def scan_of(obj, *, colors=None):
@@ -243,11 +194,11 @@ def add_values(obj, name, values):
     values = np.asarray(values)
     dtype = np.int32 if values.dtype.kind in "iu" else np.float32
     attribute = obj.data.attributes.get(name)
-    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
+    if attribute is not None and (attribute.domain, attribute.data_type) != ("POINT", KINDS[dtype]):
         obj.data.attributes.remove(attribute)
         attribute = None
     if attribute is None:
-        attribute = obj.data.attributes.new(name, _KINDS[dtype], "POINT")
+        attribute = obj.data.attributes.new(name, KINDS[dtype], "POINT")
     attribute.data.foreach_set("value", np.ascontiguousarray(values, dtype))
     obj.data.update()
 
@@ -262,7 +213,7 @@ def values_of(obj, name, dtype):
     """
     _check_readable(obj)
     attribute = obj.data.attributes.get(name)
-    if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", _KINDS[dtype]):
+    if attribute is None or (attribute.domain, attribute.data_type) != ("POINT", KINDS[dtype]):
         raise ScanError(
             "{object}: the mesh has lost its attribute {name}; undo what removed it, or import again",
             object=obj.name,
@@ -292,44 +243,22 @@ def shown_in_renders(obj):
 def look_at(obj, name):
     """Make a color attribute the one that solid viewports show; renders and exports keep theirs."""
     obj.data.color_attributes.active_color_name = name
-    # Solid views show the material's one color unless told otherwise.
     for screen in bpy.data.screens:
         for area in screen.areas:
-            if area.type == "VIEW_3D" and area.spaces.active.shading.color_type == "MATERIAL":
-                area.spaces.active.shading.color_type = "VERTEX"
-
-
-def _fill_mesh(mesh, arrays):
-    """Vertices, faces, UV map and attributes, in bulk."""
-    corners, faces = arrays.corners, arrays.corners.size // 4
-    mesh.vertices.add(arrays.coordinates.size // 3)
-    mesh.loops.add(corners.size)
-    mesh.polygons.add(faces)
-    # As attributes they are written at once; "co" and "vertex_index" would be written one by one.
-    mesh.attributes["position"].data.foreach_set("vector", arrays.coordinates)
-    if faces:
-        mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
-        mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, 4, dtype=np.int32))
-    mesh.update(calc_edges=True)
-    mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", arrays.uv)
-    for name, values in arrays.values.items():
-        mesh.attributes.new(name, _KINDS[values.dtype.type], "POINT").data.foreach_set("value", values)
+            if area.type != "VIEW_3D":
+                continue
+            shading = area.spaces.active.shading
+            # Solid views show the material's one color unless told otherwise.
+            if shading.color_type == "MATERIAL":
+                shading.color_type = "VERTEX"
+            # Studio light darkens colors to a half of what they are; without them it shows the shape.
+            if name in (COLORIZED, SCANNED) and shading.light == "STUDIO":
+                shading.light = "FLAT"
+            elif name == GRAY and shading.light == "FLAT":
+                shading.light = "STUDIO"
 
 
 def _check_readable(obj):
     """Raise ScanError in Edit Mode, where Blender keeps the mesh elsewhere and shows its attributes as empty."""
     if obj.data.is_editmode:
         raise ScanError(f"{obj.name}: leave Edit Mode first")
-
-
-def _material(name):
-    """A matte material that shows a color attribute."""
-    material = bpy.data.materials.new(name)
-    nodes, links = node_tree_of(material).nodes, material.node_tree.links
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
-    shader.inputs["Roughness"].default_value = 1.0
-    shader.inputs["Specular IOR Level"].default_value = 0.0
-    color = color_node(material, GRAY)
-    color.location = (shader.location.x - 250, shader.location.y)
-    links.new(color.outputs["Color"], shader.inputs["Base Color"])
-    return material

@@ -7,13 +7,13 @@ from ...reflcolor_addon.files.atomic import written_atomically
 from ...reflcolor_addon.messages import Message
 from ...reflcolor_addon.scan.object_arrays import object_arrays
 from ...reflcolor_addon.view.shown_surface import shown_surface
+from .add_scan import add_scan_object
 from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
 from .photo_colors import keep_cameras, keep_observed, use_cameras
 from .photo_texture import show_texture
 from .provenance import record_provenance
 from .render import render, set_up_picture
-from .scan_object import add_scan_object
 from .seed_list import append_seeds
 from .usd import write_usd
 

@@ -1,0 +1,118 @@
+"""Makes the object of a scan: mesh, attributes, images and material."""
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ...reflcolor_addon.scan.georeference import origin_shift
+from ...reflcolor_addon.settings import DEFAULT_PRESET
+from .collections import SCANS, own_collection
+from .images import packed_pixels, write_packed
+from .kept_settings import keep_settings
+from .nodes import color_node, node_tree_of
+from .scan_object import (
+    CENTER,
+    GRAY,
+    KINDS,
+    MAX_INCIDENCE,
+    RETURNS,
+    SCANNED,
+    SHIFT,
+    UV_MAP,
+    add_colors,
+    show_colors,
+)
+from .steps import completed
+
+
+def scan_images(arrays):
+    """Return the reflectance and the range image of ObjectArrays as `packed_pixels` gives them; touches no bpy."""
+    images = ("Reflectance", arrays.reflectance_image), ("Range", arrays.range_image)
+    return [packed_pixels(pixels, f"{arrays.name} {kind}") for kind, pixels in images]
+
+
+def add_scan_object(context, arrays):
+    """Make the object of a scan, at once; see `adding_scan_object`."""
+    return completed(adding_scan_object(context, arrays, scan_images(arrays)))
+
+
+def adding_scan_object(context, arrays, images):
+    """Make the object of a scan, with mesh, attributes, images and material; select it and make it active.
+
+    A generator: it yields between its steps and returns the object, which is in the scene after the last of them.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    arrays : ObjectArrays
+    images : list of bytes
+        From `scan_images`.
+    """
+    mesh = bpy.data.meshes.new(arrays.name)
+    yield from _filling(mesh, arrays)
+    scene = context.scene
+    keep_settings(DEFAULT_PRESET, [scene])
+    pose = arrays.pose.copy()
+    shift = origin_shift(pose[:3, 3], scene.get(SHIFT))
+    pose[:3, 3] = (pose[:3, 3] - shift) * arrays.units_per_meter
+    obj = bpy.data.objects.new(arrays.name, mesh)
+    obj.matrix_world = Matrix(pose)
+    # Doubles: a shift of six digits does not fit into a float property.
+    obj[SHIFT] = scene[SHIFT] = shift.tolist()
+    mesh[CENTER], mesh[MAX_INCIDENCE] = arrays.center.tolist(), arrays.max_incidence_deg
+    mesh[RETURNS] = len(mesh.vertices)
+    state = obj.reflcolor
+    state.rows, state.cols = arrays.shape
+    state.source = str(arrays.source or "")
+    reflectance, measured = images
+    state.reflectance_image = write_packed(None, f"{arrays.name} Reflectance", reflectance, is_data=False)
+    state.range_image = write_packed(None, f"{arrays.name} Range", measured, is_data=True)
+    for image in (state.reflectance_image, state.range_image):
+        image.display_aspect = (arrays.pixel_aspect, 1.0)
+    add_colors(obj, GRAY, arrays.gray)
+    yield
+    if arrays.scanned is not None:
+        add_colors(obj, SCANNED, arrays.scanned)
+        yield
+    mesh.materials.append(_material(arrays.name))
+    show_colors(obj, GRAY)
+    own_collection(context, SCANS).objects.link(obj)
+    for other in context.selected_objects:
+        other.select_set(False)
+    obj.select_set(True)
+    context.view_layer.objects.active = obj
+    return obj
+
+
+def _filling(mesh, arrays):
+    """Vertices, faces, UV map and attributes, in bulk; in steps."""
+    corners, faces = arrays.corners, arrays.corners.size // 4
+    mesh.vertices.add(arrays.coordinates.size // 3)
+    mesh.loops.add(corners.size)
+    mesh.polygons.add(faces)
+    # As attributes they are written in one piece, as "co" and "vertex_index" one by one.
+    mesh.attributes["position"].data.foreach_set("vector", arrays.coordinates)
+    if faces:
+        mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
+        mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, 4, dtype=np.int32))
+    yield
+    mesh.update(calc_edges=True)
+    yield
+    mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", arrays.uv)
+    yield
+    for name, values in arrays.values.items():
+        mesh.attributes.new(name, KINDS[values.dtype.type], "POINT").data.foreach_set("value", values)
+    yield
+
+
+def _material(name):
+    """A matte material that shows a color attribute."""
+    material = bpy.data.materials.new(name)
+    nodes, links = node_tree_of(material).nodes, material.node_tree.links
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Roughness"].default_value = 1.0
+    shader.inputs["Specular IOR Level"].default_value = 0.0
+    color = color_node(material, GRAY)
+    color.location = (shader.location.x - 250, shader.location.y)
+    links.new(color.outputs["Color"], shader.inputs["Base Color"])
+    return material
