@@ -14,9 +14,10 @@ HERE = ROOT / "tests" / "window"
 OUT = ROOT / "build" / "window"
 DATA = Path(os.environ.get("REFLCOLOR_DATA") or ROOT.parent / "shared" / "data")
 # How many random acts there are; few enough for CI, unless a person asks for more.
-ACTS = os.environ.get("REFLCOLOR_ACTS", "200")
+ACTS = os.environ.get("REFLCOLOR_ACTS", "500")
 SESSION = ROOT / "tools" / "window_session.sh"
-SIZE = (1280, 900)
+# Width and height of the screen; larger for pictures.
+SIZE = os.environ.get("REFLCOLOR_WINDOW", "1280x900").split("x")
 LIMIT_S = 400
 LOG_LINES = 40
 
@@ -133,7 +134,7 @@ def run_file(file: ScenarioFile, names: list[str], blender: Blender, zip_file: P
     line = [
         "bash",
         seen(SESSION),
-        *map(str, SIZE),
+        *SIZE,
         blender.program,
         "--enable-event-simulate",
         "--python-exit-code",

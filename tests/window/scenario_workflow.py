@@ -1,4 +1,4 @@
-"""A new user's way from the shipped example to a rendered picture, by the panel alone, with what it costs counted."""
+"""The example colored from six pairs picked by hand, by way of the panel and back through undo."""
 
 import bpy
 from scenario_picking import at_pixel, at_point, laid_out
@@ -13,28 +13,6 @@ PAIRS = (
     ((222, 380), (1020, 640)),
     ((215, 60), (290, 540)),
 )
-
-
-def scenario_from_the_example_to_a_render(window):
-    clicks = 0
-    # Dropped on the window, as a file manager does it; the choice of files is no click in Blender.
-    window.call("reflcolor.import_scan", filepath=window.example("cones.scan.json"))
-    window.call("reflcolor.load_photo", filepath=window.example("photo.jpg"))
-    yield from window.show_sidebar()
-    yield from window.click_button("reflcolor.match_photos")
-    clicks += 1
-    yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 100, 200, "seeds are found in the photo")
-    yield from window.click_button("reflcolor.colorize")
-    clicks += 1
-    yield from window.until(lambda: "Colorized" in window.scan.data.color_attributes, 60, "the scan is colorized")
-    yield from window.click_button("reflcolor.set_up_render")
-    clicks += 1
-    window.check(window.scene.camera is not None, "there is a camera")
-    yield from window.screenshot("by_match")
-    window.scene.render.filepath = window.output("by_match.png")
-    window.scene.render.resolution_percentage = 50
-    bpy.ops.render.render(write_still=True)
-    window.check(clicks <= 12, f"at most 12 clicks, here {clicks}")
 
 
 def scenario_six_pairs_by_hand_color_the_example(window):

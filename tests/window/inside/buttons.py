@@ -6,9 +6,13 @@ import bpy
 _STEP_PX = 18
 # At a region's lower edge the mouse takes hold of the edge, not of a button there.
 _EDGE_PX = 24
-# Where in a region's width buttons are looked for: full-width ones, the icons on the right, the left of two in a row.
-_COLUMNS = (0.5, 0.93, 0.25, 0.75)
-_SCROLLS = 12
+# Where in a region's width buttons are looked for: full-width ones and the right of two in a row, the left of two; then
+# the icons on the right, the middle of three.
+_COLUMNS, _RARE_COLUMNS = (0.75, 0.25), (0.93, 0.5)
+# Turns of the wheel that bring the most of a region into view that was not; so often down, and from the top.
+_TURNS, _SCROLLS = 8, 4
+# Names of files are this far apart in the file browser.
+_FILE_PX = 10
 # Where a property's field is in the redo panel, from the mouse that it was opened at: to the right, and row by row.
 _FIELD_PX, _ROW_PX, _ROWS = 200, 11, 26
 
@@ -33,6 +37,33 @@ class Buttons:
             raise AssertionError(f"the sidebar of {kind} has no tab {tab}")
         yield 0.2
 
+    def click_tab(self, tab, kind="VIEW_3D"):
+        """Click a tab of an area's open sidebar, looked for from above: what is tried does not count as a press."""
+        region = self.region(self.area(kind), "UI")
+        pressed = self.presses
+        for y in range(region.y + region.height - 10, region.y, -_STEP_PX):
+            yield from self.click((region.x + region.width - 10, y))
+            yield 0.05
+            if self.region(self.area(kind), "UI").active_panel_category == tab:
+                self.presses = pressed + 1
+                yield 0.2
+                return
+        raise AssertionError(f"the sidebar of {kind} has no tab {tab}")
+
+    def find_file(self, area, name):
+        """Return the place of a file in the file browser, where the mouse is over it."""
+        found = self.region(area, "WINDOW")
+        for x in (found.x + 80, found.x + found.width // 2):
+            for y in range(found.y + found.height - 10, found.y, -_FILE_PX):
+                yield from self.move((x, y))
+                pressed = self.presses
+                yield from self.click((x, y))
+                self.presses = pressed
+                if area.spaces.active.params.filename == name:
+                    yield 0.6
+                    return x, y
+        raise AssertionError(f"the file browser shows no file {name}")
+
     def click_button(self, name, area=None, region="UI"):
         """Look for a button in a region, scrolling it if need be, and click it."""
         place = yield from self.find_button(name, area, region)
@@ -43,16 +74,20 @@ class Buttons:
         area = area or self.area("VIEW_3D")
         # At the edge: over a list of many rows the wheel would turn the list.
         edge = self.place_in(area, 0.02, 0.5, region)
-        for turns in (0, 2 * _SCROLLS, *[-3] * _SCROLLS):
+        # Most buttons are looked for below the last one.
+        down = [-_TURNS] * _SCROLLS
+        for turns, columns in (
+            (0, _COLUMNS + _RARE_COLUMNS),
+            *((turns, _COLUMNS) for turns in (*down, 2 * _TURNS * _SCROLLS, *down)),
+            *((turns, _RARE_COLUMNS) for turns in (2 * _TURNS * _SCROLLS, *down)),
+        ):
             if turns:
                 yield from self.wheel(edge, turns)
                 yield 0.1
-            for column in _COLUMNS:
+            for column in columns:
                 place = yield from self._look_down(name, area, region, column)
                 if place is not None:
                     return place
-                if turns:
-                    continue
         raise AssertionError(f"there is no button {name} in {area.ui_type} {region}")
 
     def button_under_mouse(self, area, region="UI"):
@@ -93,7 +128,8 @@ class Buttons:
         found = self.region(area, region)
         x, first = found.x + column * found.width, None
         for y in range(found.y + found.height - 4, found.y + _EDGE_PX, -_STEP_PX):
-            yield from self.move((x, y))
+            # One turn will do: Blender is believed only where the mouse stays. A turn over buttons draws them all.
+            yield from self.move((x, y), turns=1)
             told = self.button_under_mouse(area, region)
             if _is_button(told, name):
                 first = y
@@ -101,7 +137,8 @@ class Buttons:
         if first is None:
             return None
         # The mouse may be at the button's edge, and Blender a turn behind: believe it where it stays.
-        for y in (first - _STEP_PX // 2, first, first - _STEP_PX, first + _STEP_PX // 2):
+        for step in (0, 1, -1, 2, -2, 3, 4):
+            y = first + step * _STEP_PX // 2
             yield from self.move((x, y))
             yield 0.05
             if _is_button(self.button_under_mouse(area, region), name):

@@ -8,7 +8,7 @@ import traceback
 
 import bpy
 
-from inside.window import Window, install
+from inside.window import Missing, Window, install
 
 
 class Driver:
@@ -54,9 +54,11 @@ class Driver:
         yield from window.start_anew()
         self._tell({"event": "begin", "name": name})
         print(f"window-test: begin {name}", flush=True)
-        began, problem = time.perf_counter(), ""
+        began, problem, missing = time.perf_counter(), "", ""
         try:
             yield from scenario(window)
+        except Missing as error:
+            missing = str(error)
         except Exception:
             problem = traceback.format_exc()
         # What goes wrong just after the last act belongs to this scenario, too.
@@ -72,6 +74,7 @@ class Driver:
                 "event": "end",
                 "name": name,
                 "problem": problem,
+                "missing": missing,
                 "checks": window.checks,
                 "seconds": time.perf_counter() - began,
                 "expected_errors": window.expected_errors,

@@ -8,27 +8,35 @@ _STEPS = 8
 
 
 class Hands:
-    """Places are (x, y) in pixels of the window, from its bottom left. Every act is a generator: ``yield from`` it."""
+    """Places are (x, y) in pixels of the window, from its bottom left. Every act is a generator: ``yield from`` it.
+
+    Attributes
+    ----------
+    presses : int
+        How often a mouse button or a key was pressed.
+    """
 
     def __init__(self):
         self._at = (0, 0)
+        self.presses = 0
 
     @property
     def bpy_window(self):
         """The window that the hands work in: the one opened last."""
         return bpy.context.window_manager.windows[-1]
 
-    def move(self, place):
-        """Move the mouse to a place."""
+    def move(self, place, turns=2):
+        """Move the mouse to a place, and let Blender's event loop turn."""
         self._at = (round(place[0]), round(place[1]))
         self._event("MOUSEMOVE", "NOTHING")
-        yield from self._turns(2)
+        yield from self._turns(turns)
 
     def click(self, place, button="LEFT", **held):
         """Click at a place, with keys held: ``shift=True``, ``ctrl=True``, ``alt=True``."""
         yield from self.move(place)
         yield from self._hold(held)
         self._event(_BUTTONS[button], "PRESS", **held)
+        self.presses += 1
         yield from self._turns(1)
         self._event(_BUTTONS[button], "RELEASE", **held)
         yield from self._turns(2)
@@ -39,6 +47,7 @@ class Hands:
         yield from self.move(start)
         yield from self._hold(held)
         self._event(_BUTTONS[button], "PRESS", **held)
+        self.presses += 1
         yield from self._turns(1)
         for place in (*through, end):
             x, y = self._at
@@ -55,6 +64,7 @@ class Hands:
         """Press and release a key by Blender's name for it ("Z", "ESC", "RET"), where the mouse is."""
         yield from self._hold(held)
         self._event(name, "PRESS", unicode=text, **held)
+        self.presses += 1
         yield from self._turns(1)
         self._event(name, "RELEASE", **held)
         yield from self._turns(2)

@@ -88,6 +88,20 @@ class RandomActs:
     def set_up_render(self):
         self.window.call("reflcolor.set_up_render")
 
+    def choose_picture(self):
+        settings = self.window.scene.reflcolor
+        settings.picture_look = self.random.choice(("archive", "lit"))
+        settings.picture_filled = self.random.random() < 0.5
+        settings.picture_drop_mixed = self.random.random() < 0.5
+        self.window.push("Picture")
+
+    def make_texture(self):
+        self.window.call("reflcolor.make_texture", pixels=self.random.choice((64, 128)))
+
+    def export_scan(self):
+        suffix = self.random.choice(("ply", "glb", "ptx"))
+        self.window.call("reflcolor.export_scan", filepath=self.window.output(f"fuzz.{suffix}"))
+
     def select_seeds(self):
         which = self.random.choice(("all", "none", "found", "unsure", "uncolored"))
         self.window.call("reflcolor.select_all_seeds", which=which)
@@ -140,7 +154,7 @@ class RandomActs:
         self.window.invoke("reflcolor.colorize")
 
     def apply_preset(self):
-        self.window.call("reflcolor.apply_preset", preset=self.random.choice(("Paper", "Enhanced")))
+        self.window.call("reflcolor.apply_preset", preset=self.random.choice(("Natural", "Paper", "Enhanced")))
 
     def live_update(self):
         settings = self.window.bpy_window.id_data.reflcolor
@@ -163,6 +177,9 @@ class RandomActs:
 
     def load_photo(self):
         self.window.call("reflcolor.load_photo", filepath=self.window.example("photo.jpg"))
+
+    def load_photo_meanwhile(self):
+        self.window.invoke("reflcolor.load_photo", filepath=self.window.example("photo.jpg"))
 
     def remove_photo(self):
         self.window.call("reflcolor.remove_photo")
@@ -245,6 +262,9 @@ ACTS_AND_WEIGHTS = (
     (RandomActs.take_seed_tool, 2),
     (RandomActs.seeds_from_color, 2),
     (RandomActs.set_up_render, 1),
+    (RandomActs.choose_picture, 2),
+    (RandomActs.make_texture, 1),
+    (RandomActs.export_scan, 1),
     (RandomActs.select_seeds, 4),
     (RandomActs.delete_seeds, 3),
     (RandomActs.lock_seeds, 2),
@@ -262,7 +282,8 @@ ACTS_AND_WEIGHTS = (
     (RandomActs.apply_preset, 3),
     (RandomActs.evaluate, 2),
     (RandomActs.import_scan, 4),
-    (RandomActs.load_photo, 2),
+    (RandomActs.load_photo, 1),
+    (RandomActs.load_photo_meanwhile, 2),
     (RandomActs.remove_photo, 1),
     (RandomActs.open_reflectance, 2),
     (RandomActs.select_another, 5),
@@ -278,5 +299,5 @@ ACTS_AND_WEIGHTS = (
     (RandomActs.save_file, 2),
     (RandomActs.open_file, 2),
     (RandomActs.new_file, 1),
-    (RandomActs.disable_and_enable, 2),
+    (RandomActs.disable_and_enable, 1),
 )
