@@ -2,10 +2,12 @@
 
 import threading
 import time
+from contextlib import suppress
 
 import bpy
+from bpy.app.handlers import persistent
 
-from ...reflcolor_addon.errors import Cancelled
+from ...reflcolor_addon.errors import Cancelled, ReflcolorError
 from ..scene.reports import reported
 from ..scene.steps import completed
 from ..scene.texts import label, report_text, shown
@@ -16,6 +18,8 @@ _INTERVAL_S = 0.1
 _STEP_S = 0.01
 _DONE = object()
 _running = []
+# Results of which not all steps are written.
+_unfinished = []
 
 
 def running():
@@ -28,6 +32,21 @@ def unregister():
     for job in _running:
         job.cancel(wait=True)
     _running.clear()
+    _unfinished.clear()
+
+
+@persistent
+def _write_the_rest(*_):
+    """Before an undo, which a script or another window may call for, write what is left: it takes the rest away."""
+    for writing in _unfinished:
+        with suppress(ReflcolorError, ReferenceError):
+            completed(writing)
+
+
+handlers = (
+    (bpy.app.handlers.undo_pre, _write_the_rest),
+    (bpy.app.handlers.redo_pre, _write_the_rest),
+)
 
 
 class Job:
@@ -232,7 +251,11 @@ class JobOperator:
     @reported
     def _outcome(self, context):
         if self._writing is not None:
-            return {"FINISHED"} if next(self._writing, _DONE) is _DONE else {"RUNNING_MODAL"}
+            try:
+                return {"FINISHED"} if next(self._writing, _DONE) is _DONE else {"RUNNING_MODAL"}
+            except ReferenceError:
+                # A script has deleted meanwhile what was being written to.
+                return {"CANCELLED"}
         error = self._job.error
         if isinstance(error, Cancelled) or (error is None and self._job.stopping):
             self.report({"INFO"}, report_text("{name} cancelled; nothing was changed", name=report_text(self.job_name)))
@@ -242,6 +265,7 @@ class JobOperator:
         self._writing = self.finish(context, self._job.result)
         if self._writing is None:
             return {"FINISHED"}
+        _unfinished.append(self._writing)
         # The steps are short.
         context.window_manager.event_timer_remove(self._timer)
         self._timer = context.window_manager.event_timer_add(_STEP_S, window=context.window)
@@ -259,6 +283,8 @@ class JobOperator:
         context.window_manager.event_timer_remove(self._timer)
         if self._job in _running:
             _running.remove(self._job)
+        if self._writing in _unfinished:
+            _unfinished.remove(self._writing)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         _redraw_views(context)
