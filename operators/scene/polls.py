@@ -98,8 +98,10 @@ def not_colorable(obj):
 
 def scan_object(context):
     """Return the active object if it is a scan, else the only scan there is; None where there is none, or several."""
-    if _is_scan(context.active_object):
-        return context.active_object
+    # A timer's context has none while Blender changes the workspace.
+    active = getattr(context, "active_object", None)
+    if _is_scan(active):
+        return active
     scans = [obj for obj in context.view_layer.objects if _is_scan(obj)]
     return scans[0] if len(scans) == 1 else None
 
