@@ -6,6 +6,7 @@ from bpy.props import StringProperty
 
 from ..reflcolor_addon.color.evaluation import error_map, evaluate
 from ..reflcolor_addon.errors import ScanError
+from ..reflcolor_addon.scan.object_arrays import on_grid
 from .scene import polls
 from .scene.images import read_image
 from .scene.looks import refresh_look
@@ -41,15 +42,13 @@ class REFLCOLOR_OT_evaluate(JobOperator, bpy.types.Operator):
         self._object_name = obj.name
         place = grid_indices(obj)
         shape = obj.reflcolor.rows, obj.reflcolor.cols
-        rgb, known = np.zeros((*shape, 3), np.uint8), np.zeros(shape, bool)
-        rgb[place] = colors_of(obj, COLORIZED)
-        known[place] = True
+        rgb = on_grid(colors_of(obj, COLORIZED), place, shape)
+        known = on_grid(np.ones(len(place[0]), bool), place, shape)
         image = self._image(obj)
         if image is not None:
             truth = _pixels(image, obj)
         elif SCANNED in obj.data.color_attributes:
-            truth = np.zeros_like(rgb)
-            truth[place] = colors_of(obj, SCANNED)
+            truth = on_grid(colors_of(obj, SCANNED), place, shape)
             # Black is what scanners write where they saw no color.
             known &= truth.any(axis=-1)
         else:

@@ -6,6 +6,7 @@ from bpy.props import IntProperty
 
 from ..reflcolor_addon.matching import LARGEST, Shot, texture
 from ..reflcolor_addon.matching.photo_image import PhotoImage
+from ..reflcolor_addon.scan.object_arrays import on_grid
 from .scene import polls
 from .scene.images import read_pixels
 from .scene.photo_colors import camera_image, cameras_of
@@ -40,10 +41,11 @@ class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
         obj = polls.scan_object(context)
         self._object_name = obj.name
         place, shape = grid_indices(obj), (obj.reflcolor.rows, obj.reflcolor.cols)
-        rgb, observed, photo = np.zeros((*shape, 3), np.uint8), np.zeros(shape, np.float32), np.full(shape, -1)
-        rgb[place] = colors_of(obj, COLORIZED)
+        rgb = on_grid(colors_of(obj, COLORIZED), place, shape)
+        observed, photo = np.zeros(shape, np.float32), np.full(shape, -1, np.int32)
         if OBSERVED in obj.data.attributes and PHOTO in obj.data.attributes:
-            observed[place], photo[place] = values_of(obj, OBSERVED, np.float32), values_of(obj, PHOTO, np.int32)
+            observed = on_grid(values_of(obj, OBSERVED, np.float32), place, shape)
+            photo = on_grid(values_of(obj, PHOTO, np.int32), place, shape, empty=-1)
         cameras = cameras_of(obj)
         read_scan, pixels = scan_reader(obj), self.pixels
         shots = [_shot(camera, camera_image(obj, number)) for number, camera in enumerate(cameras)]

@@ -10,6 +10,8 @@ from ...reflcolor_addon.errors import Cancelled, ReflcolorError, UsageError
 from ...reflcolor_addon.files.readers.options import AS_IT_IS, ReadOptions
 from ...reflcolor_addon.files.writers.scans_back import ColoredScan
 from ...reflcolor_addon.report.report import fingerprint
+from ...reflcolor_addon.scan.georeference import shifted
+from ...reflcolor_addon.scan.object_arrays import on_grid
 from .provenance import import_record
 from .scan_object import SHIFT, colors_of, grid_indices, scan_reader, shown_in_renders
 
@@ -41,17 +43,13 @@ def _reader(obj):
     shift = np.array(obj.get(SHIFT, (0, 0, 0)), np.float64)
 
     def read(unchanged):
-        rgb = np.zeros((*shape, 3), np.uint8)
-        rgb[place] = colors
         entry = record.get("scan", {})
         source, options = _source(record, unchanged), _options(entry)
         known = source is not None and options is not None and isinstance(entry.get("index"), int)
         scan = read_scan()
-        pose = scan.pose.copy()
-        pose[:3, 3] += shift
         return ColoredScan(
-            scan=replace(scan, pose=pose),
-            rgb=rgb,
+            scan=replace(scan, pose=shifted(scan.pose, shift)),
+            rgb=on_grid(colors, place, shape),
             source=source if known else None,
             index=entry.get("index") if known else None,
             options=options if known else AS_IT_IS,

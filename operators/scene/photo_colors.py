@@ -10,9 +10,10 @@ import json
 import bpy
 import numpy as np
 
-from ...reflcolor_addon.color.observed import Observed
+from ...reflcolor_addon.color.observed import Observed, packed_rgb, unpacked_rgb
 from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.matching.registration.stored import model_document, model_of
+from ...reflcolor_addon.scan.object_arrays import on_grid
 from .scan_object import add_values, grid_indices, values_of
 
 _RGB, _WEIGHT, _PHOTO = ".seen_rgb", ".seen_weight", ".seen_photo"
@@ -22,7 +23,6 @@ _KEY = "reflcolor_seen"
 _CAMERAS, _USED = "reflcolor_cameras", "reflcolor_used_cameras"
 # On objects: the image of each of these photos, which a person may rename, by its place in the list.
 _PHOTOS, _USED_PHOTOS = "reflcolor_camera_photos", "reflcolor_used_camera_photos"
-_BASES = np.array([1 << 16, 1 << 8, 1], np.int32)
 
 
 def keep_observed(obj, observed):
@@ -43,7 +43,7 @@ def keep_observed(obj, observed):
         return
     place = grid_indices(obj)
     values = {
-        _RGB: observed.rgb[place].astype(np.int32) @ _BASES,
+        _RGB: packed_rgb(observed.rgb[place]),
         _WEIGHT: observed.weight[place],
         _PHOTO: observed.photo[place],
     }
@@ -76,11 +76,8 @@ def observed_reader(obj):
         return lambda: None
 
     def read():
-        rgb = np.zeros((*shape, 3), np.uint8)
-        weight, photo = np.zeros(shape, np.float32), np.full(shape, -1, np.int16)
-        rgb[place] = packed[:, None] // _BASES & 255
-        weight[place], photo[place] = weights, photos
-        return Observed(rgb, weight, photo)
+        photo = on_grid(photos.astype(np.int16), place, shape, empty=-1)
+        return Observed(on_grid(unpacked_rgb(packed), place, shape), on_grid(weights, place, shape), photo)
 
     return read
 

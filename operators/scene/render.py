@@ -6,6 +6,7 @@ import bpy
 from mathutils import Vector
 
 from ...reflcolor_addon.view.framing import camera_in_region, picture_size
+from ...reflcolor_addon.view.picture import BACKGROUND, LIGHT_FROM
 from .collections import PICTURE, own_collection
 from .nodes import node_tree_of
 from .picture_material import give_look
@@ -15,10 +16,6 @@ from .viewpoint import covered_by_sidebar, view_of
 
 # Custom properties of objects: added for a picture; hidden in pictures, but not by the user.
 _ADDED, _LEFT_OUT = "reflcolor_for_render", "reflcolor_left_out"
-# Background, linear light: darker than white walls, lighter than dark floors.
-_BACKGROUND = (0.045, 0.047, 0.05, 1.0)
-# The light comes from the left, above and behind the viewer.
-_LIGHT_FROM = Vector((-0.4, 0.5, 1.0)).normalized()
 
 
 def set_up_picture(context, obj, picture, surfaces):
@@ -62,7 +59,7 @@ def follow_picture(scene, picture):
     """Where the scene is set up for pictures, have its scans shown as a Picture says."""
     if not _is_set_up(scene):
         return
-    toward_light = scene.camera.rotation_euler.to_matrix() @ _LIGHT_FROM
+    toward_light = scene.camera.rotation_euler.to_matrix() @ Vector(LIGHT_FROM).normalized()
     for scan in scans_of(scene):
         switch_surface(scan, shown=picture.filled, drop_mixed=picture.drop_mixed)
         for material in scan.data.materials:
@@ -160,6 +157,6 @@ def _set_up_scene(scene):
         scene.world.use_fake_user = True
     scene.world = world
     background = next(node for node in node_tree_of(world).nodes if node.type == "BACKGROUND")
-    background.inputs["Color"].default_value = _BACKGROUND
+    background.inputs["Color"].default_value = (*BACKGROUND, 1.0)
     # Visible, but without light.
     world.cycles_visibility.diffuse = False

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.scan.georeference import rigid_pose
+from ...reflcolor_addon.scan.object_arrays import on_grid
 from ...reflcolor_addon.scan.scan import Scan
 from .nodes import show_in_material
 
@@ -40,9 +41,7 @@ def scan_of(obj, *, colors=None):
     scan = scan_reader(obj)()
     if colors is None:
         return scan
-    rgb = np.zeros((*scan.shape, 3), np.uint8)
-    rgb[grid_indices(obj)] = colors_of(obj, colors)
-    return replace(scan, color=rgb)
+    return replace(scan, color=on_grid(colors_of(obj, colors), grid_indices(obj), scan.shape))
 
 
 def scan_reader(obj):
@@ -64,10 +63,9 @@ def scan_reader(obj):
     pose = rigid_pose(obj.matrix_world, meters, center)
 
     def read():
-        reflectance, points, valid = np.zeros(shape, np.float32), np.zeros((*shape, 3)), np.zeros(shape, bool)
-        reflectance[place], valid[place] = measured, True
-        points[place] = coordinates.astype(np.float64) * meters + center
-        return Scan(name=name, points=points, reflectance=reflectance, valid=valid, pose=pose)
+        points = on_grid(coordinates.astype(np.float64) * meters + center, place, shape)
+        valid = on_grid(np.ones(len(measured), bool), place, shape)
+        return Scan(name=name, points=points, reflectance=on_grid(measured, place, shape), valid=valid, pose=pose)
 
     return read
 

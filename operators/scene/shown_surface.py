@@ -120,8 +120,7 @@ def _mesh(obj, surface, vertex):
     if len(surface.sizes):
         mesh.attributes["position"].data.foreach_set("vector", local.astype(np.float32).ravel())
         mesh.attributes[".corner_vert"].data.foreach_set("value", surface.corners)
-        starts = np.cumsum(surface.sizes) - surface.sizes
-        mesh.polygons.foreach_set("loop_start", starts.astype(np.int32))
+        mesh.polygons.foreach_set("loop_start", surface.starts)
     mesh.update(calc_edges=True)
     mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", surface.uv.ravel())
     source = np.maximum(vertex[surface.source], 0).astype(np.int32)

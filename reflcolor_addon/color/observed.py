@@ -25,6 +25,7 @@ _FADES = 3
 # Number of places in the photos that a picked color is compared with.
 _PLACES = 500
 _STRIP_PIXELS = 1 << 18
+_BASES = np.array([1 << 16, 1 << 8, 1], np.int32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +55,16 @@ class Observed:
         """Return those of one pixel in so many rows and columns."""
         kept = np.s_[::stride, ::stride]
         return Observed(self.rgb[kept], self.weight[kept], self.photo[kept])
+
+
+def packed_rgb(rgb):
+    """Return (N,) int32: the three numbers of each (N, 3) uint8 color in one, for attributes that hold one number."""
+    return rgb.astype(np.int32) @ _BASES
+
+
+def unpacked_rgb(packed):
+    """Return the (N, 3) uint8 colors that `packed_rgb` packed."""
+    return (packed[:, None] // _BASES & 255).astype(np.uint8)
 
 
 def outranked(observed, seeds, graph, alpha, control=None):

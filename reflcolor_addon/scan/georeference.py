@@ -28,6 +28,13 @@ def origin_shift(position, known=None):
     return np.where(np.abs(position) > FAR, np.round(position / _ROUND_TO) * _ROUND_TO, 0.0)
 
 
+def shifted(pose, shift):
+    """Return a (4, 4) pose with a (3,) shift, see `origin_shift`, added to its place."""
+    pose = pose.copy()
+    pose[:3, 3] += shift
+    return pose
+
+
 def local_center(scan):
     """Return the (3,) float64 point, in the scanner's frame, that its vertices should be measured from.
 

@@ -61,6 +61,28 @@ class ObjectArrays:
     range_image: np.ndarray
 
 
+def on_grid(values, place, shape, empty=0):
+    """Return values of some pixels as an array over the whole grid.
+
+    Parameters
+    ----------
+    values : (N, ...) array
+    place : ((N,) int, (N,) int)
+        Rows and columns.
+    shape : (H, W)
+    empty : number
+        The value of all other pixels.
+
+    Returns
+    -------
+    (H, W, ...) array
+        Of the same dtype.
+    """
+    grid = np.full((*shape, *values.shape[1:]), empty, values.dtype)
+    grid[place] = values
+    return grid
+
+
 def object_arrays(scan, *, units_per_meter=1.0, max_incidence_deg=MAX_INCIDENCE_DEG):
     """Return the ObjectArrays of a scan.
 

@@ -7,6 +7,10 @@ LOOKS = {
     ARCHIVE: "Colors exactly as they are, without any light",
     LIT: "In even light, which shows the shape of surfaces",
 }
+BACKGROUND = (0.045, 0.047, 0.05)
+"""Linear light: darker than white walls, lighter than dark floors."""
+LIGHT_FROM = (-0.4, 0.5, 1.0)
+"""The direction that the light comes from, as the camera sees it: from the left, above and behind."""
 
 
 @dataclass(frozen=True, kw_only=True)

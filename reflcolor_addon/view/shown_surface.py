@@ -44,6 +44,11 @@ class ShownSurface:
     uv: np.ndarray
     mixed: np.ndarray
 
+    @property
+    def starts(self):
+        """(F,) int32: the place of each face's first corner in ``corners``."""
+        return (np.cumsum(self.sizes) - self.sizes).astype(np.int32)
+
 
 def shown_surface(scan, *, drop_mixed=True, max_incidence_deg=MAX_INCIDENCE_DEG, progress=None, cancelled=None):
     """Return what is added to the surface of a scan to look at.
