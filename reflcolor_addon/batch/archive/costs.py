@@ -11,7 +11,7 @@ _OTHERS = 4.0
 # Bytes that a worker needs before there is a scan, for each pixel of the scan, and for each pixel of a photo.
 _MEMORY, _MEMORY_PER_PIXEL = 350 << 20, 450
 # Seconds of one processor for each scan, each million of its pixels, and each photo that it is matched with.
-SECONDS, SECONDS_PER_MEGAPIXEL, SECONDS_PER_PAIR, SECONDS_PER_LOOK = 1.5, 8.0, 6.0, 0.25
+SECONDS, SECONDS_PER_MEGAPIXEL, SECONDS_PER_PAIR, SECONDS_PER_LOOK = 1.5, 8.0, 10.0, 0.25
 
 
 def pixels_of(paths):

@@ -7,7 +7,8 @@ from ...matching.registration.search import Search
 
 # Lengths of the photo's longer side; one step of the search's own list is covered from one to the next.
 _FOCALS = (0.62, 0.8, 1.04)
-_COARSER = 2
+# Maps twice as coarse as the search's own are enough where their pixels are not larger than so many degrees.
+_COARSER, _COARSEST_DEG = 2, 0.75
 _GUESSES = 5
 # As a place aside is refined at first: pixels, tile, radius, blur and spread.
 _LEVEL = (1.3, 24, 10, 1.5, 1.2)
@@ -36,7 +37,8 @@ def first_look(views, photo, step=lambda: None):
     if views.untestable is not None or np.ptp(photo.gray) == 0:
         return 0.0
     rng, best = np.random.default_rng(0), 0.0
-    for guess in Search(views, photo).roughly(_FOCALS, _COARSER, step)[:_GUESSES]:
+    coarser = _COARSER if views.step_deg * _COARSER <= _COARSEST_DEG else 1
+    for guess in Search(views, photo).roughly(_FOCALS, coarser, step)[:_GUESSES]:
         step()
         camera = guess.camera(photo)
         _, proof = refined(views, photo, camera, [_LEVEL], free=camera.POSE, rng=rng)
