@@ -5,7 +5,7 @@ import bpy
 from ..reflcolor_addon.batch.pipeline import colorize_jobs
 from ..reflcolor_addon.batch.scan_job import ScanJob
 from .scene import polls
-from .scene.colorized_object import showing_colorization
+from .scene.colorized_object import show_colorization
 from .scene.images import packed_pixels
 from .scene.notices import show_result, show_results
 from .scene.photo_colors import observed_reader, use_cameras
@@ -53,17 +53,13 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
             # Raises if a mesh cannot take them, before any mesh is changed.
             grid_indices(obj)
             done.append((obj, job, picture))
-        return self._write(done, one_of_several=len(results) > 1)
-
-    def _write(self, done, *, one_of_several):
         for obj, job, picture in done:
             result = job.colorization
-            yield from showing_colorization(obj, result, picture)
+            show_colorization(obj, result, picture)
             use_cameras(obj)
             record_provenance(obj, window_report(obj, result, self._settings, job.seeds))
             said = report_text("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
-            show_result(self, obj, said, result.warnings, job.seeds, one_of_several=one_of_several)
-            yield
+            show_result(self, obj, said, result.warnings, job.seeds, one_of_several=len(results) > 1)
         objects = [obj for obj, _, _ in done]
         names = ", ".join(obj.name for obj in objects)
         together = report_text("Colorized {count} scans: {names}", count=len(objects), names=names)

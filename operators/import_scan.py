@@ -18,7 +18,7 @@ from ..reflcolor_addon.messages import Message
 from ..reflcolor_addon.report.report import input_entry, scan_entry
 from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.scan.object_arrays import object_arrays
-from .scene.add_scan import adding_scan_object, scan_images
+from .scene.add_scan import add_scan_object, scan_images
 from .scene.notices import show_result
 from .scene.pair_preview import draw_preview, picked_files
 from .scene.photos import add_photos, photo_file
@@ -216,7 +216,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
                     report_text("Photos inside {name}, now on the list of photos: {count}", name=name, count=count)
                 )
         for arrays, images, entry, inputs, warnings in scans:
-            obj = yield from adding_scan_object(context, arrays, images)
+            obj = add_scan_object(context, arrays, images)
             record_import(obj, entry, inputs, warnings)
             # Messages about the rest of the file are reported with its first scan.
             show_result(
@@ -224,7 +224,6 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             )
             added.append(obj)
             inside, doubts = [], []
-            yield
         for obj in added:
             obj.select_set(True)
         show_imported(context, added)

@@ -22,7 +22,6 @@ from .scan_object import (
     add_colors,
     show_colors,
 )
-from .steps import completed
 
 
 def scan_images(arrays):
@@ -31,25 +30,18 @@ def scan_images(arrays):
     return [packed_pixels(pixels, f"{arrays.name} {kind}") for kind, pixels in images]
 
 
-def add_scan_object(context, arrays):
-    """Make the object of a scan, at once; see `adding_scan_object`."""
-    return completed(adding_scan_object(context, arrays, scan_images(arrays)))
-
-
-def adding_scan_object(context, arrays, images):
+def add_scan_object(context, arrays, images=None):
     """Make the object of a scan, with mesh, attributes, images and material; select it and make it active.
-
-    A generator: it yields between its steps and returns the object, which is in the scene after the last of them.
 
     Parameters
     ----------
     context : bpy.types.Context
     arrays : ObjectArrays
-    images : list of bytes
-        From `scan_images`.
+    images : list of bytes, optional
+        From `scan_images`, where a thread has made them before.
     """
     mesh = bpy.data.meshes.new(arrays.name)
-    yield from _filling(mesh, arrays)
+    _fill_mesh(mesh, arrays)
     scene = context.scene
     keep_settings(DEFAULT_PRESET, [scene])
     pose = arrays.pose.copy()
@@ -64,16 +56,14 @@ def adding_scan_object(context, arrays, images):
     state = obj.reflcolor
     state.rows, state.cols = arrays.shape
     state.source = str(arrays.source or "")
-    reflectance, measured = images
+    reflectance, measured = images or scan_images(arrays)
     state.reflectance_image = write_packed(None, f"{arrays.name} Reflectance", reflectance, is_data=False)
     state.range_image = write_packed(None, f"{arrays.name} Range", measured, is_data=True)
     for image in (state.reflectance_image, state.range_image):
         image.display_aspect = (arrays.pixel_aspect, 1.0)
     add_colors(obj, GRAY, arrays.gray)
-    yield
     if arrays.scanned is not None:
         add_colors(obj, SCANNED, arrays.scanned)
-        yield
     mesh.materials.append(_material(arrays.name))
     show_colors(obj, GRAY)
     own_collection(context, SCANS).objects.link(obj)
@@ -84,8 +74,8 @@ def adding_scan_object(context, arrays, images):
     return obj
 
 
-def _filling(mesh, arrays):
-    """Vertices, faces, UV map and attributes, in bulk; in steps."""
+def _fill_mesh(mesh, arrays):
+    """Vertices, faces, UV map and attributes, in bulk."""
     corners, faces = arrays.corners, arrays.corners.size // 4
     mesh.vertices.add(arrays.coordinates.size // 3)
     mesh.loops.add(corners.size)
@@ -95,14 +85,10 @@ def _filling(mesh, arrays):
     if faces:
         mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
         mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, 4, dtype=np.int32))
-    yield
     mesh.update(calc_edges=True)
-    yield
     mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", arrays.uv)
-    yield
     for name, values in arrays.values.items():
         mesh.attributes.new(name, KINDS[values.dtype.type], "POINT").data.foreach_set("value", values)
-    yield
 
 
 def _material(name):

@@ -11,13 +11,12 @@ from .scan_object import (
     own_image,
     show_like_reflectance,
 )
-from .steps import completed
 
 
-def showing_colorization(obj, colorization, picture):
+def show_colorization(obj, colorization, picture=None):
     """Write a Colorization onto its object, and show it in viewports, renders and exports.
 
-    A generator: it yields between its steps. ``picture`` is what `packed_pixels` gives of ``colorization.rgb``.
+    ``picture`` is what `packed_pixels` gives of ``colorization.rgb``, where a thread has made it before.
 
     The attribute ``confidence`` is of 0 to 1, ``nearest_seed`` the index of a seed in ``colorization.seeds``, which is
     their order in the provenance, or -1 where none reaches. ``observed`` is 1 where a photo saw the color and 0 where
@@ -26,11 +25,10 @@ def showing_colorization(obj, colorization, picture):
     """
     place = grid_indices(obj)
     add_colors(obj, COLORIZED, colorization.rgb[place])
-    yield
     for name, values in colorization.values.items():
         add_values(obj, name, values[place])
-    yield
     state = obj.reflcolor
+    picture = picture or packed_pixels(colorization.rgb, obj.name)
     name = f"{obj.name} {COLORIZED}"
     state.colorized_image = write_packed(own_image(obj, "colorized_image"), name, picture, is_data=False)
     show_like_reflectance(obj, state.colorized_image)
@@ -40,8 +38,3 @@ def showing_colorization(obj, colorization, picture):
         del obj[GUESSED]
     refresh_look(obj)
     show_look(obj, "colorized")
-
-
-def show_colorization(obj, colorization):
-    """Write a Colorization onto its object and show it, at once; see `showing_colorization`."""
-    completed(showing_colorization(obj, colorization, packed_pixels(colorization.rgb, obj.name)))

@@ -2,24 +2,16 @@
 
 import threading
 import time
-from contextlib import suppress
 
 import bpy
-from bpy.app.handlers import persistent
 
-from ...reflcolor_addon.errors import Cancelled, ReflcolorError
+from ...reflcolor_addon.errors import Cancelled
 from ..scene.reports import reported
-from ..scene.steps import completed
 from ..scene.texts import label, report_text, shown
 
 # Seconds between two updates of a job.
 _INTERVAL_S = 0.1
-# Between two steps of writing a result.
-_STEP_S = 0.01
-_DONE = object()
 _running = []
-# Results of which not all steps are written.
-_unfinished = []
 
 
 def running():
@@ -32,21 +24,6 @@ def unregister():
     for job in _running:
         job.cancel(wait=True)
     _running.clear()
-    _unfinished.clear()
-
-
-@persistent
-def _write_the_rest(*_):
-    """Before an undo, which a script or another window may call for, write what is left: it takes the rest away."""
-    for writing in _unfinished:
-        with suppress(ReflcolorError, ReferenceError):
-            completed(writing)
-
-
-handlers = (
-    (bpy.app.handlers.undo_pre, _write_the_rest),
-    (bpy.app.handlers.redo_pre, _write_the_rest),
-)
 
 
 class Job:
@@ -140,7 +117,11 @@ class StepJob(Job):
     @staticmethod
     def complete(steps):
         """Do all of the work now and return its result."""
-        return completed(steps)
+        while True:
+            try:
+                next(steps)
+            except StopIteration as end:
+                return end.value
 
     def advance(self):
         """Do one step, and more as long as they are short."""
@@ -165,14 +146,13 @@ class JobOperator:
     """An operator with long work.
 
     A subclass gives ``job_name``, ``prepare(context)``, which reads what it needs from Blender and returns what its
-    ``job_type`` does, and ``finish(context, result)``, which writes the result. What takes long to write is written in
-    steps: then ``finish`` is a generator, and between its steps the window is drawn, but nothing else gets through.
+    ``job_type`` does, and ``finish(context, result)``, which writes the result in one step.
     """
 
     job_type = ThreadJob
     # Whether other events must wait, because the work holds on to the scene.
     blocks_events = False
-    _job = _writing = None
+    _job = None
     _from_browser = False
 
     def execute(self, context):
@@ -192,9 +172,7 @@ class JobOperator:
     @reported
     def run_blocking(self, context):
         """Do all of it before returning, as scripts and background mode expect."""
-        writing = self.finish(context, self.job_type.complete(self.prepare(context)))
-        if writing is not None:
-            completed(writing)
+        self.finish(context, self.job_type.complete(self.prepare(context)))
         return {"FINISHED"}
 
     @reported
@@ -216,9 +194,6 @@ class JobOperator:
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if self._writing is not None:
-            # Nothing may come between the steps, an undo least of all.
-            return self._conclude(context) if event.type == "TIMER" else {"RUNNING_MODAL"}
         if event.type == "ESC" and event.value == "PRESS" and self._job.alive:
             self._job.cancel()
         elif event.type != "TIMER":
@@ -228,48 +203,25 @@ class JobOperator:
         if self._job.alive:
             self._show(context)
             return {"RUNNING_MODAL"} if self.blocks_events or event.type == "ESC" else {"PASS_THROUGH"}
-        return self._conclude(context)
+        self._end(context)
+        return self._outcome(context)
 
     def cancel(self, context):
         """Blender ends the operator, because its window or file goes away, or its file browser was left."""
         if self._job is not None:
             self._job.cancel(wait=True)
-            if self._writing is not None:
-                self._writing.close()
             self._end(context)
-
-    def _conclude(self, context):
-        """Write the result, or its next step, and end when that was the last."""
-        outcome = None
-        try:
-            outcome = self._outcome(context)
-        finally:
-            if outcome != {"RUNNING_MODAL"}:
-                self._end(context)
-        return outcome
 
     @reported
     def _outcome(self, context):
-        if self._writing is not None:
-            try:
-                return {"FINISHED"} if next(self._writing, _DONE) is _DONE else {"RUNNING_MODAL"}
-            except ReferenceError:
-                # A script has deleted meanwhile what was being written to.
-                return {"CANCELLED"}
         error = self._job.error
         if isinstance(error, Cancelled) or (error is None and self._job.stopping):
             self.report({"INFO"}, report_text("{name} cancelled; nothing was changed", name=report_text(self.job_name)))
             return {"CANCELLED"}
         if error is not None:
             raise error
-        self._writing = self.finish(context, self._job.result)
-        if self._writing is None:
-            return {"FINISHED"}
-        _unfinished.append(self._writing)
-        # The steps are short.
-        context.window_manager.event_timer_remove(self._timer)
-        self._timer = context.window_manager.event_timer_add(_STEP_S, window=context.window)
-        return {"RUNNING_MODAL"}
+        self.finish(context, self._job.result)
+        return {"FINISHED"}
 
     def _show(self, context):
         job = self._job
@@ -283,8 +235,6 @@ class JobOperator:
         context.window_manager.event_timer_remove(self._timer)
         if self._job in _running:
             _running.remove(self._job)
-        if self._writing in _unfinished:
-            _unfinished.remove(self._writing)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         _redraw_views(context)
