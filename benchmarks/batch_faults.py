@@ -216,8 +216,8 @@ def _full(folder, _whole, known, _moments):
         before = _finished(disk)
         bad = _plain(said, status, 1)
         subprocess.run(["mount", "-o", "remount,size=64m", disk], check=True)
-        status, said = _run(own, "--resume")
-        bad += _plain(said, status, 0) + _faults(own, known, before, "after room was made")
+        status, again = _run(own, "--resume")
+        bad += _plain(again, status, 0) + _faults(own, known, before, "after room was made")
         yield f"{len(before)} things were finished when the disk was full; then with room and --resume all", bad
         yield f"it said: {[line for line in said.splitlines() if line.startswith('error:')]}", []
 
