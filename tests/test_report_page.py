@@ -86,6 +86,11 @@ def test_a_failure_is_found_by_its_state(browser, page):
     assert "hall_2.ptx: line 1" in browser.value("document.querySelector('tbody tr:not([hidden])').innerText")
 
 
+def test_a_desktop_shows_all_columns(browser, page):
+    browser.open(page, 1280, 900)
+    assert browser.value("document.documentElement.scrollWidth") <= 1280
+
+
 def test_a_phone_shows_all_of_it_without_scrolling_aside(browser, page):
     browser.open(page, 390, 844, phone=True)
     assert browser.value("document.documentElement.scrollWidth") <= 390
