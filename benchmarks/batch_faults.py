@@ -243,7 +243,7 @@ def _gone(folder, whole, known, _moments):
 
 def _together(folder, _whole, known, _moments):
     own = _fresh(folder)
-    both = [_started(own), _started(own)]
+    both = [_started(own, "--resume"), _started(own, "--resume")]
     said = [process.communicate()[0] for process in both]
     bad = [line for text, process in zip(said, both, strict=True) for line in _plain(text, process.returncode, 0)]
     before = _finished(own / _COLORED)

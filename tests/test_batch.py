@@ -299,7 +299,7 @@ def test_a_record_that_cannot_be_kept_costs_one_scan_and_no_other(archive, batch
 
 
 def test_two_batches_share_the_work(archive, batch):
-    line, options = process_line("batch", "batch.toml", "--jobs", "1")
+    line, options = process_line("batch", "batch.toml", "--jobs", "1", "--resume")
     both = [subprocess.Popen(line, cwd=archive, stdout=subprocess.PIPE, **options) for _ in range(2)]
     said = b"".join(process.communicate()[0] for process in both).decode()
     assert [process.returncode for process in both] == [0, 0]

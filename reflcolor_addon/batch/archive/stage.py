@@ -43,7 +43,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             if not claim.enter_context(context.folder.claimed(piece.state.item.name)):
                 piece.state.outcome = ELSEWHERE
                 return False
-            if _is_known(context, stage, piece.state, piece.key, since=start):
+            if _is_known(context, stage, piece.state, piece.key, since=None if options.resume else start):
                 claim.close()
                 return False
             piece.claim = claims.enter_context(claim)
