@@ -58,7 +58,7 @@ def scan_features(reflectance, range_m, valid, *, range_weight, sigma=1.0, sprea
     if range_weight > 0 and valid.any():
         # Without a return is most often sky: farther than anything, so that the skyline is an edge.
         logarithm = np.log(np.maximum(range_m, 1e-6))
-        farthest = np.quantile(logarithm[valid], 0.98) + _FARTHER_THAN_ALL
+        farthest = np.quantile(logarithm[valid].astype(np.float64), 0.98) + _FARTHER_THAN_ALL
         jumps = gradient(np.where(valid, logarithm, farthest).astype(np.float32), sigma)
         features += range_weight * gradient_features(*jumps, near, spread=spread)
     return features
@@ -114,7 +114,10 @@ def _normalized(features, seen):
     small = cv2.GaussianBlur(small, (0, 0), _NEIGHBORHOOD / _REDUCED)
     share, mean, power = cv2.split(cv2.resize(small, (width, height), interpolation=cv2.INTER_LINEAR))
     share += 1e-3
-    contrast = np.sqrt(power / share) + (_NOISE_SHARE * np.sqrt(squared.sum() / weight.sum()) + 1e-9)
+    # All in single precision: NumPy 1 would take one number and a constant in double precision, NumPy 2 does not.
+    usual = np.float32(squared.sum(dtype=np.float64) / weight.sum(dtype=np.float64))
+    noise = np.float32(_NOISE_SHARE) * np.sqrt(usual) + np.float32(1e-9)
+    contrast = np.sqrt(power / share) + noise
     gain = (weight / contrast)[..., None]
     # Strength counts only where it differs from its neighborhood; the harmonics average to nothing by themselves.
     features[..., 0] -= mean / share

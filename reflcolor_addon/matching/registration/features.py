@@ -99,7 +99,8 @@ def _variant(image, name):
     elif name in ("contrast", "inverted"):
         image = cv2.createCLAHE(3.0, (8, 8)).apply(image.astype(np.uint8)).astype(np.float32)
     low, high = np.percentile(image, (0.5, 99.5))
-    image = np.clip((image - low) / max(high - low, 1e-6) * 255, 0, 255).astype(np.uint8)
+    # In double precision with NumPy 1, too.
+    image = np.clip((image.astype(np.float64) - low) / max(high - low, 1e-6) * 255, 0, 255).astype(np.uint8)
     return 255 - image if name == "inverted" else image
 
 

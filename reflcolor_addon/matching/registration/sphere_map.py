@@ -144,8 +144,9 @@ class SphereMap:
         np.multiply(own[-2:], other[-1], out=spectra[1:])
         product, energy, overlap = fft.irfft2(spectra, shape, workers=thread_count())
         enough = overlap > _LEAST_OVERLAP * min(patch.seen.sum(), self._seen)
-        usual = (patch.features**2).sum() / patch.seen.sum()
-        scores = np.where(enough, product / np.sqrt(np.maximum(energy, 1.0) * max(usual, 1e-6)), -1)
+        # An array of one number: by a number alone NumPy 1 would multiply in single precision.
+        usual = np.array([[max((patch.features**2).sum(dtype=np.float64) / patch.seen.sum(), 1e-6)]])
+        scores = np.where(enough, product / np.sqrt(np.maximum(energy, 1.0) * usual), -1)
         return np.roll(scores, (height, width), (0, 1))
 
 

@@ -239,4 +239,4 @@ def _sharpness(photo, detail):
     image, _ = photo.level(detail)
     fine = np.abs(image - cv2.GaussianBlur(image, (0, 0), 1.0)).mean()
     coarse = np.abs(image - cv2.GaussianBlur(image, (0, 0), 3.0)).mean()
-    return float((fine + _FAINT) / (coarse + _FAINT))
+    return float((fine + np.float32(_FAINT)) / (coarse + np.float32(_FAINT)))
