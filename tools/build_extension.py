@@ -37,7 +37,6 @@ DIST = ROOT / "dist"
 PYTHONS = ("3.11", "3.13", "3.14")
 # The most that a zip may weigh, in MB (10^6 bytes), by how many Pythons it is for.
 BUDGETS = {1: 100, 2: 140, 3: 175}
-ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 @dataclass(frozen=True)
@@ -264,15 +263,11 @@ def link_or_copy(source: Path, target: Path) -> None:
 
 
 def write_reproducibly(source: Path, target: Path) -> None:
-    """Rewrite a zip so that its bytes depend on its content alone: sorted, undated, and stored (wheels are compressed
-    already, and what a compressor makes of the rest differs between zlib's versions)."""
+    """Rewrite a zip so that its bytes depend on its content alone: sorted, undated, and compressed by libdeflate."""
+    with zipfile.ZipFile(source) as old:
+        files = {name: old.read(name) for name in sorted(old.namelist())}
     temporary = target.with_suffix(".part")
-    with zipfile.ZipFile(source) as old, zipfile.ZipFile(temporary, "w") as new:
-        for name in sorted(old.namelist()):
-            entry = zipfile.ZipInfo(name, ZIP_EPOCH)
-            entry.create_system = 3
-            entry.external_attr = 0o100644 << 16
-            new.writestr(entry, old.read(name))
+    trim_wheels.write_zip(files, temporary)
     temporary.replace(target)
 
 
