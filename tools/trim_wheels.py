@@ -1,7 +1,7 @@
 """Takes out of the bundled wheels what no program uses (tools/check_zip.py shows what that was).
 
-Left out are the tests of the packages, scikit-image's sample images, Cython sources and type stubs of compiled modules,
-and the symbols for debuggers in Linux libraries.
+Left out are the tests of the packages, scikit-image's sample images, the Cython sources of scipy's compiled
+modules, and the symbols for debuggers in Linux libraries.
 Nothing that can be imported or called is taken away: Blender shares a package among all extensions that bring it. Each
 trimmed wheel has the build tag `0trimmed`, so that Blender prefers a whole wheel of the same version where another
 extension has one. What is left is compressed by libdeflate, whose bytes depend on its pinned version alone.
