@@ -1,10 +1,10 @@
 """Takes out of the bundled wheels what no program uses (tools/check_zip.py shows what that was).
 
-Left out are the tests of the packages, scikit-image's sample images, the Cython sources of scipy's compiled
-modules, and the symbols for debuggers in Linux libraries.
-Nothing that can be imported or called is taken away: Blender shares a package among all extensions that bring it. Each
-trimmed wheel has the build tag `0trimmed`, so that Blender prefers a whole wheel of the same version where another
-extension has one. What is left is compressed by libdeflate, whose bytes depend on its pinned version alone.
+Left out are the tests of the packages, scikit-image's sample images, the Cython sources of scipy's compiled modules,
+and the symbols for debuggers in Linux libraries. Nothing that can be imported or called is taken away: Blender shares a
+package among all extensions that bring it. Each trimmed wheel has the build tag `0trimmed`, so that Blender prefers a
+whole wheel of the same version where another extension has one. What is left is compressed by libdeflate, whose bytes
+depend on its pinned version alone.
 """
 
 import base64
@@ -21,9 +21,7 @@ import deflate
 BUILD_TAG = "0trimmed"
 # Beyond this level libdeflate takes twice the time for a thousandth of the size.
 LEVEL = 10
-LEFT_OUT = re.compile(
-    r"(^|/)tests/|^skimage/data/.*\.(?!pyi?$)[^.]+$|^scipy/.*/_(c?y?test|test_\w+)\.[^/]*(so|pyd)$|^(scipy|cv2)/.*\.(pyx|pyi)$"
-)
+LEFT_OUT = re.compile(r"(^|/)tests/|^skimage/data/.*\.(?!pyi?$)[^.]+$|^scipy/.*\.pyx$")
 
 
 def trim_wheel(wheel: Path, folder: Path) -> Path:
