@@ -2,7 +2,6 @@
 
 import struct
 
-import laspy
 import numpy as np
 import pytest
 from test_cases import HALL, NAMES
@@ -10,6 +9,7 @@ from test_cases import HALL, NAMES
 from reflcolor_addon.errors import Cancelled, ScanError
 from reflcolor_addon.files.readers import ReadOptions, las, read_scans
 
+laspy = las.imported_laspy()
 ANGLE = ReadOptions(grid="angle")
 COLOR = np.random.default_rng(1).integers(0, 256, HALL.shape, np.uint8)
 KINDS = pytest.mark.parametrize("suffix", [".las", ".laz"])

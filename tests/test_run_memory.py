@@ -38,13 +38,13 @@ def test_a_run_that_fits_is_done(run_cli, free):
 
 def test_colors_that_do_not_fit_are_refused_before_the_work(run_cli, free, idle):
     free(3000)
-    assert_refused(run_cli(*COLORIZE, "-o", "out.png"), 1, "garage.ptx: needs about", "for colorizing, and 2.93 KB")
+    assert_refused(run_cli(*COLORIZE, "-o", "out.png"), 1, "garage.ptx: colorizing needs about", "and 2.93 KB are free")
 
 
 def test_a_scene_that_does_not_fit_is_refused_before_the_work(run_cli, free, idle):
     free(20_000)
     outcome = run_cli(*COLORIZE, "--render", "out.png", "-o", "out.blend", blender=blender_tasks())
-    assert_refused(outcome, 1, "for writing out.png, and 19.5 KB are free", "step 2")
+    assert_refused(outcome, 1, "writing out.png needs about", "and 19.5 KB are free", "step 2")
 
 
 def test_a_photo_that_does_not_fit_is_refused_before_it_is_decoded(run_cli, cli_folder, free, idle, monkeypatch):
@@ -52,7 +52,7 @@ def test_a_photo_that_does_not_fit_is_refused_before_it_is_decoded(run_cli, cli_
     monkeypatch.setattr(cv2, "imdecode", lambda *_: pytest.fail("was decoded"))
     free(10_000_000)
     outcome = run_cli("colorize", "garage.ptx", "--photo", "view.png", "-o", "out.png")
-    assert_refused(outcome, 1, "for finding seeds")
+    assert_refused(outcome, 1, "finding seeds needs about")
 
 
 def test_what_several_scans_hold_together_counts(free):
@@ -60,9 +60,9 @@ def test_what_several_scans_hold_together_counts(free):
     photos = [("a", np.zeros((100, 100, 3), np.uint8))]
     assert memory.bytes_of_matching(jobs, photos * 2) > memory.bytes_of_matching(jobs, photos)
     free(10)
-    with pytest.raises(ReflcolorError, match=r"^0, 1, 2: needs about"):
+    with pytest.raises(ReflcolorError, match=r"^0, 1, 2: finding seeds needs about"):
         memory.require_matching(jobs, photos)
-    with pytest.raises(ReflcolorError, match="for making meshes"):
+    with pytest.raises(ReflcolorError, match="a.e57: making meshes needs about"):
         memory.require_objects([job.scan for job in jobs], Path("a.e57"))
 
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from io import BytesIO
 
 import cv2
-import laspy
 import numpy as np
 import tifffile
 from e57_samples import write_e57 as write_raw_e57
@@ -17,6 +16,7 @@ from test_readers_formats import lzf, packed_rgb
 from reflcolor_addon import Seeds, Settings, colorize, read_scans
 from reflcolor_addon.files.images import read_image, read_measured
 from reflcolor_addon.files.readers import ReadOptions
+from reflcolor_addon.files.readers.las import imported_laspy
 from reflcolor_addon.files.writers import write_e57, write_ply, write_ptx
 from reflcolor_addon.report.provenance import outline, read_report
 from reflcolor_addon.report.report import build_report, input_entry, output_entry, scan_entry, stamped
@@ -136,6 +136,7 @@ def _pcd():
 
 def _las(folder, suffix):
     for version, point_format in (("1.2", 2), ("1.4", 7)):
+        laspy = imported_laspy()
         header = laspy.LasHeader(version=version, point_format=point_format)
         header.scales, header.offsets = np.full(3, 1e-4), np.zeros(3)
         header.add_extra_dim(laspy.ExtraBytesParams(name="grid_row", type=np.uint16))

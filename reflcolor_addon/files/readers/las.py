@@ -1,7 +1,9 @@
 """LAS and LAZ: points without a grid, as aerial and mobile programs and many converters write them."""
 
+import importlib
 import importlib.util
 import struct
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -52,10 +54,27 @@ def read_las(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     return [scan_of_columns(path, _columns(data, header), options=options)]
 
 
+def imported_laspy():
+    """Import laspy without requests, which only files on servers need, and which opens a socket when imported.
+
+    Raises
+    ------
+    ImportError
+        If laspy is missing.
+    """
+    if "laspy" in sys.modules or "requests" in sys.modules:
+        return importlib.import_module("laspy")
+    sys.modules["requests"] = None  # This makes the import fail.
+    try:
+        return importlib.import_module("laspy")
+    finally:
+        del sys.modules["requests"]
+
+
 def _header(file, path):
     """The laspy.LasHeader of a file, which fits the file."""
     try:
-        import laspy
+        laspy = imported_laspy()
     except ImportError:
         raise ScanError("{file}: LAS needs laspy, which is missing; export its points as E57", file=path.name) from None
     start = file.read(_HEAD.size)
@@ -144,8 +163,7 @@ def _reason_of(text):
 
 def _columns(data, header):
     """Columns as `scan_of_columns` takes them."""
-    import laspy
-
+    laspy = imported_laspy()
     form = header.point_format
     points = laspy.ScaleAwarePointRecord(
         np.frombuffer(data, form.dtype(), header.point_count), form, header.scales, header.offsets
