@@ -62,7 +62,7 @@ def test_what_several_scans_hold_together_counts(free):
     free(10)
     with pytest.raises(ReflcolorError, match=r"^0, 1, 2: finding seeds needs about"):
         memory.require_matching(jobs, photos)
-    with pytest.raises(ReflcolorError, match="a.e57: making meshes needs about"):
+    with pytest.raises(ReflcolorError, match=r"a\.e57: making meshes needs about"):
         memory.require_objects([job.scan for job in jobs], Path("a.e57"))
 
 
