@@ -77,6 +77,24 @@ _SEEDS = {
 }
 
 _MATCHING = {
+    "Learning the materials": "Materialien werden gelernt",
+    "Superpixels of the scan": "Superpixel des Scans",
+    "Comparing superpixels": "Superpixel werden verglichen",
+    "{scan}: superpixels": "{scan}: Superpixel",
+    "{scan}: comparing superpixels": "{scan}: Superpixel werden verglichen",
+    "{scan}: transferring colors": "{scan}: Farben werden übertragen",
+    "{scan}: blending photos": "{scan}: Fotos werden überblendet",
+    "{photo}: superpixels": "{photo}: Superpixel",
+    "{photo}: matching features": "{photo}: Merkmale werden verglichen",
+    "{photo}: searching directions": "{photo}: Richtungen werden abgesucht",
+    "{photo}: searching viewpoints": "{photo}: Standpunkte werden abgesucht",
+    "{photo}: trying directions": "{photo}: Richtungen werden ausprobiert",
+    "{photo}: refining": "{photo}: wird verfeinert",
+    "{photo}: refining the picked pairs": "{photo}: gewählte Paare werden verfeinert",
+    "{photo}: looking for what repeats": "{photo}: Wiederholungen werden gesucht",
+    "{photo}: trying its place on {other}": "{photo}: seine Lage auf {other} wird ausprobiert",
+    "{photo}: trying its place in the file": "{photo}: seine Lage in der Datei wird ausprobiert",
+    "{photo}: is black and white, it gives no colors": "{photo}: ist schwarzweiß, es gibt keine Farben",
     "Opening the photos": "Fotos werden geöffnet",
     "Matched": "Zugeordnet",
     "{scan}: no pixel has a return, so nothing can be matched": (

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..color.observed import Observed
 from ..errors import Cancelled, SeedsError
+from ..messages import Message
 from ..progress import IsCancelled, Progress
 from ..scan.scan import Scan, require_scan
 from ..seeds.seeds import Seeds
@@ -232,7 +233,11 @@ def match_site(
             for seeds, locations, observed, warnings in site.verified(scans, opened, hand, settings, step, registered)
         ]
     progress(1.0, "Matched")
-    gray = tuple(f"{photo.name}: is black and white, it gives no colors" for photo in opened if _is_gray(photo.rgb))
+    gray = tuple(
+        Message("{photo}: is black and white, it gives no colors", photo=photo.name)
+        for photo in opened
+        if _is_gray(photo.rgb)
+    )
     return [
         replace(
             matching,

@@ -67,7 +67,7 @@ def verified(scans, photos, hand, settings, step, registered=None):
         None if own is None else seen_seeds(place.scan, own, place.image, place.superpixels, place.locations, photos)
         for place, own in zip(places, observed, strict=True)
     ]
-    step(0.93, "Learning the materials")
+    step(0.93, Message("Learning the materials"))
     looks = [described(place.image, place.superpixels.labels, len(place.superpixels)) for place in places]
     appearance = _learnt(places, seen, looks)
     for place, own, colors, look in zip(places, seen, observed, looks, strict=True):
@@ -79,19 +79,19 @@ def _observed(places, photos, step):
     """The `Observed` of each scan, or None."""
     views = []
     for place in places:
-        step(0.87, f"{place.scan.name}: transferring colors")
+        step(0.87, Message("{scan}: transferring colors", scan=place.scan.name))
         views.append([_shown(place, photo, index) for index, photo in enumerate(photos)])
     photo_gains = gains(views)
     observed = []
     for place in places:
-        step(0.9, f"{place.scan.name}: blending photos")
+        step(0.9, Message("{scan}: blending photos", scan=place.scan.name))
         # What a scan's photos show takes much memory, and is not needed any more.
         observed.append(fused(views.pop(0), photo_gains, place.surface))
     return shared([place.surface for place in places], observed)
 
 
 def _prepared(scan, settings, step):
-    step(0.02, f"{scan.name}: superpixels")
+    step(0.02, Message("{scan}: superpixels", scan=scan.name))
     views = ScanViews(scan)
     image = square_image(scan, toned(scan, "percentiles"))
     return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), GridSurface(scan), [], [])
@@ -208,7 +208,7 @@ def _cautious(place, photos, settings, step):
     """Seeds where nothing was verified: the mean color of the photos, and more only where neighbors agree."""
     warning = "{scan}: no photo could be verified; colors are guessed from likeness, near the photos' mean color"
     place.warnings.append(Message(warning, scan=place.scan.name))
-    text = f"{place.scan.name}: comparing superpixels"
+    text = Message("{scan}: comparing superpixels", scan=place.scan.name)
     step(0.96, text)
     own, others = described_scan(place.scan, place.image, place.superpixels, settings), []
     for photo in photos:

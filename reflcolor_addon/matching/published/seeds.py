@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...messages import Message
 from ...seeds.seeds import Seeds
 from ..scan_image import toned
 from .hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
@@ -23,14 +24,14 @@ def published_seeds(scan, photos, settings, step):
     .. [1] S. Oishi, R. Kurazume, Y. Iwashita, T. Hasegawa, "Colorization of 3D Geometric Model utilizing Laser
        Reflectivity", ICRA 2013.
     """
-    step(0.05, "Superpixels of the scan")
+    step(0.05, Message("Superpixels of the scan"))
     image = square_image(scan, toned(scan, "percentiles"))
     own = described_scan(scan, image, scan_superpixels(scan, image, settings), settings)
     others = []
     for index, photo in enumerate(photos):
-        step(0.3 + 0.5 * index / len(photos), f"Superpixels of {photo.name}")
+        step(0.3 + 0.5 * index / len(photos), Message("{photo}: superpixels", photo=photo.name))
         others.append(described_photo(photo.rgb, max(image.shape), settings))
-    step(0.85, "Comparing superpixels")
+    step(0.85, Message("Comparing superpixels"))
     matches = hog_matches(own, others)
     rows, cols = own.superpixels.centers.T
     xy = matches.xy * np.array([(photo.width, photo.height) for photo in photos])[matches.photo]

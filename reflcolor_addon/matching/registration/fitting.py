@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...messages import Message
 from .refinement import fitted, tightened
 from .tiles import surfaces
 from .verification import NO_EVIDENCE, RADIUS, TILE, evidence, judged
@@ -73,7 +74,7 @@ def beside(views, photo, model, proof, *, step=lambda text: None):
     distance = np.median(views.scan.range[views.scan.valid])
     level = [(*MIDDLE, RADIUS, 0.7, 0.5)]
     for _ in range(_MOVES):
-        step(f"{photo.name}: looking for what repeats")
+        step(Message("{photo}: looking for what repeats", photo=photo.name))
         _, here = refined(views, photo, model, [(*MIDDLE, RADIUS, 0.7, 0.3)], free=model.POSE, rng=rng)
         tried = []
         for share in _ASIDE:

@@ -114,7 +114,7 @@ def _surest(scans, found, scan):
 
 def _known_from(anchor, location, scan, views, photo, step):
     """The location on a scan, of a photo whose camera is known from another one."""
-    step(f"{photo.name}: trying its place on {anchor.name}")
+    step(Message("{photo}: trying its place on {other}", photo=photo.name, other=anchor.name))
     again = confirmed(views, photo, _carried(location.registration.model, anchor.pose, scan.pose))
     if again.accepted:
         return _judged(scan, photo, again)
@@ -126,7 +126,7 @@ def _as_stated(scan, views, photo, step):
     """The location that a photo's file states, if it stands the test; None where it does not, or states none."""
     if photo.place is None:
         return None
-    step(f"{photo.name}: trying its place in the file")
+    step(Message("{photo}: trying its place in the file", photo=photo.name))
     turn, center = photo.place.seen_from(scan.pose)
     again = confirmed(views, photo, Camera(turn, center, photo.place.focal_px, 0.0, photo.width, photo.height))
     return _judged(scan, photo, again) if again.accepted else None
@@ -168,7 +168,7 @@ def _by_hand(scan, views, hand, photo, step):
         warning = "{photo}: no camera sees the {count} pairs picked by hand where they are{off}; check them"
         warning = Message(warning, photo=photo.name, count=count, off=off)
         return replace(nothing, warnings=(warning,))
-    step(f"{photo.name}: refining the picked pairs")
+    step(Message("{photo}: refining the picked pairs", photo=photo.name))
     kept = np.setdiff1d(np.arange(count), left_out)
     picked = HandPairs(
         points[kept], hand.photo_xy[mine][kept], _doubt(pixels, len(kept), photo), _OVERLAP * views.repeats

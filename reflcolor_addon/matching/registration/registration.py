@@ -168,13 +168,13 @@ def register(views, photo, *, step=lambda text: None):
     search = Search(views, photo)
 
     def features_step():
-        step(f"{photo.name}: matching features")
+        step(Message("{photo}: matching features", photo=photo.name))
 
     def search_step():
-        step(f"{photo.name}: searching directions")
+        step(Message("{photo}: searching directions", photo=photo.name))
 
     def aside_step():
-        step(f"{photo.name}: searching viewpoints")
+        step(Message("{photo}: searching viewpoints", photo=photo.name))
 
     attempts = (
         lambda: _by_features(views, photo, features_step),
@@ -245,7 +245,7 @@ def _tried(views, photo, guesses, aside, step):
     for levels in _FROM_ASIDE if aside else _FROM_SCANNER:
         tried = []
         for model, _ in promising:
-            step(f"{photo.name}: trying directions")
+            step(Message("{photo}: trying directions", photo=photo.name))
             free = model.POSE if aside else model.ROTATION
             better, proof = refined(views, photo, model, levels, free=free, rng=rng)
             # What these pixels are too coarse for may show on the next level.
@@ -257,7 +257,7 @@ def _tried(views, photo, guesses, aside, step):
         if promise.strength < max(_TELLING, _NEARLY * promising[0][1].strength) or best.evidence.rank >= _CONVINCING:
             break
         for turned_only in (False,) if aside else (True, False):
-            step(f"{photo.name}: refining")
+            step(Message("{photo}: refining", photo=photo.name))
             found = Registration(*finely(views, photo, start, rng, turned_only=turned_only), "search")
             if found.better_than(best):
                 best = found
@@ -268,7 +268,7 @@ def _tried(views, photo, guesses, aside, step):
         before = best
         wider, _ = refined(views, photo, best.model, [(*MIDDLE, 10, 1.0, 0.8)], free=best.model.POSE, rng=rng)
         for start in (before.model, wider):
-            step(f"{photo.name}: refining")
+            step(Message("{photo}: refining", photo=photo.name))
             if start is not None:
                 found = Registration(*finely(views, photo, start, rng), "search")
                 if found.evidence.rank > _WORTH * best.evidence.rank:
