@@ -60,7 +60,7 @@ PLATFORMS = {
     "windows-x64": Platform(("win_amd64",), "win_amd64"),
     "macos-arm64": Platform(tuple(f"macosx_{n}_0_arm64" for n in (13, 12, 11)), "macosx_11_0_arm64"),
     "macos-x64": Platform(
-        (*(f"macosx_{n}_0_x86_64" for n in (13, 12, 11)), *(f"macosx_10_{n}_x86_64" for n in range(16, 8, -1))),
+        (*(f"macosx_{n}_0_x86_64" for n in (14, 13, 12, 11)), *(f"macosx_10_{n}_x86_64" for n in range(16, 8, -1))),
         "macosx_11_0_x86_64",
         without=("pye57", "pyquaternion"),
     ),
