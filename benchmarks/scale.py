@@ -23,7 +23,7 @@ from reflcolor_addon import Scan, Seeds
 from reflcolor_addon.batch.archive.candidates import candidates
 from reflcolor_addon.batch.archive.check import check_manifest
 from reflcolor_addon.batch.archive.fingerprints import Fingerprints
-from reflcolor_addon.batch.archive.manifest import load_manifest
+from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.cli.main import main as command_line
 from reflcolor_addon.files.writers import write_e57, write_ptx
 from reflcolor_addon.report.archive import write_page

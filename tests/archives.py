@@ -1,11 +1,14 @@
 """A small archive of scans with seeds and a manifest, for tests of batches."""
 
+import csv
 import json
 from pathlib import Path
 
+import pytest
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds
+from reflcolor_addon.cli.main import main
 from reflcolor_addon.files.writers import write_ptx
 
 HEAD = 'format = "reflcolor-batch"\nversion = 1\noutput = "colored"\n'
@@ -38,3 +41,30 @@ def outputs_of(folder):
 def _timeless(path):
     report = json.loads(Path(path).read_text(encoding="utf-8"))
     return {key: value for key, value in report.items() if key not in ("times_s", "created")}
+
+
+def table_of(folder):
+    """The rows of a batch's table of figures, by scan."""
+    with (folder / "colored" / "report.csv").open(encoding="utf-8", newline="") as file:
+        return {row["scan"]: row for row in csv.DictReader(file)}
+
+
+@pytest.fixture
+def archive(tmp_path, monkeypatch):
+    """The current folder, with an archive of three scans."""
+    monkeypatch.chdir(tmp_path)
+    make_archive(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def batch(archive, capfd):
+    """A function that runs a batch in this process, its workers beside it; returns status, output and errors."""
+
+    def run(*options):
+        capfd.readouterr()
+        status = main(["batch", "batch.toml", "--jobs", "1", *options])
+        said = capfd.readouterr()
+        return status, said.out, said.err
+
+    return run

@@ -21,7 +21,7 @@ OPENED = pytest.StashKey[tuple]()
 EXIT_STATUS = pytest.StashKey[int]()
 
 # More fixtures: the command line in this process.
-pytest_plugins = ["command_line", "gltf_files"]
+pytest_plugins = ["archives", "command_line", "gltf_files"]
 
 settings.register_profile("reflcolor", deadline=None, derandomize=IN_CI)
 settings.load_profile("reflcolor")

@@ -11,7 +11,7 @@ from small_scans import random_scan
 from reflcolor_addon import Seeds
 from reflcolor_addon.batch.archive.check import check_manifest
 from reflcolor_addon.batch.archive.draft import draft
-from reflcolor_addon.batch.archive.manifest import load_manifest
+from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
 

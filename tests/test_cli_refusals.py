@@ -220,7 +220,7 @@ def test_a_folder_or_file_that_may_not_be_written_is_said_in_one_line(run_cli, c
 
 
 def test_a_folder_that_nobody_may_write_to_is_said_in_one_line(run_cli):
-    # Not even root: the kernel's own cli_folder.
+    # Not even root may: the folder is the kernel's own.
     if not Path("/proc/self").is_dir():
         pytest.skip("needs a file system that is read-only to everybody")
     assert_refused(run_cli(*COLORIZE, "-o", "/proc/out.png"), 1, "/proc/out.png: cannot be written")

@@ -25,18 +25,7 @@ _KEYS = ("row", "col", "rgb", "photo", "x", "y", "confidence", "reason", "locked
 def read_columns(path, photos):
     """Return what a file of seeds holds, by the names of the parameters of `Seeds`.
 
-    Parameters
-    ----------
-    path : Path
-    photos : sequence of paths
-        Photos that the seeds may name.
-
-    Raises
-    ------
-    SeedsError
-        If the file cannot be read, or a seed in it cannot be used.
-    ImageError
-        If a photo cannot be read.
+    Parameters and errors are those of `Seeds.load`.
     """
     return _SeedsFile(path, photos).columns()
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...batch.archive.check import check_manifest
 from ...batch.archive.estimate import estimate
-from ...batch.archive.manifest import load_manifest
+from ...batch.archive.manifest_file import load_manifest
 from ...batch.archive.options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, Options
 from ...batch.archive.pairs import read_pairs
 from ...batch.archive.run import run_batch

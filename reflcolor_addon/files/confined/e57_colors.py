@@ -6,8 +6,6 @@ colors of the points are put in anew.
 """
 
 import json
-import mmap
-import os
 import sys
 from pathlib import Path
 
@@ -33,14 +31,11 @@ def main(lines, answer):
         Called with each answer: ``{"at": thousandths}``, ``{"lost": name}``, ``{"done": 0}``, or ``{"error": text}``.
     """
     from confinement import confine, reopened
-    from e57_points import library_at
+    from program import library_at, shared_memory
 
     request = json.loads(next(iter(lines)))
-    number, path = request["columns"]
-    if number is None:
-        number = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
-    columns = memoryview(mmap.mmap(number, 0))
-    library = library_at(request["library"], request["folders"])
+    columns = shared_memory(*request["columns"])
+    library = library_at("libe57", request["library"], request["folders"])
     # This is the last file that is opened for writing.
     made = library.ImageFile(request["output"], "w")
     confine(**{key: request[key] for key in ("memory", "written", "seconds")})
@@ -205,11 +200,8 @@ class _Copy:
         writer.close()
 
 
-def _answer(answer):
-    sys.stdout.write(json.dumps(answer) + "\n")
-    sys.stdout.flush()
-
-
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).resolve().parent))
-    main(sys.stdin, _answer)
+    from program import send
+
+    main(sys.stdin, send)

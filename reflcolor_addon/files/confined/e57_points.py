@@ -5,10 +5,7 @@ It imports nothing of the package, and needs nothing but this folder and the lib
 open, one column of doubles after the other.
 """
 
-import importlib.util
 import json
-import mmap
-import os
 import sys
 from pathlib import Path
 
@@ -29,11 +26,12 @@ def main(lines, answer):
         Called with each answer: ``{"at": records so far}``, ``{"done": records}``, or ``{"error": text}``.
     """
     from confinement import confine, reopened
+    from program import library_at, shared_memory
 
     lines = iter(lines)
     request = json.loads(next(lines))
-    columns = _opened(*request["columns"])
-    library = library_at(request["library"], request["folders"])
+    columns = shared_memory(*request["columns"])
+    library = library_at("libe57", request["library"], request["folders"])
     confine(**{key: request[key] for key in ("memory", "written", "seconds")})
     answer({"ready": True})
     try:
@@ -50,22 +48,6 @@ def main(lines, answer):
         answer({"error": "ErrorMemory"})
     except Exception as error:  # native code raises errors of any type: only their text is usable
         answer({"error": str(error)[:10_000]})
-
-
-def _opened(number, path):
-    if number is None:
-        number = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
-    return memoryview(mmap.mmap(number, 0))
-
-
-def library_at(path, folders):
-    """libE57 as it lies in the wheel, without the Python around it."""
-    for folder in folders:
-        os.add_dll_directory(folder)
-    spec = importlib.util.spec_from_file_location("libe57", path)
-    library = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(library)
-    return library
 
 
 def _read(library, image, records, fields, count, columns, answer):
@@ -89,11 +71,8 @@ def _read(library, image, records, fields, count, columns, answer):
     return at
 
 
-def _answer(answer):
-    sys.stdout.write(json.dumps(answer) + "\n")
-    sys.stdout.flush()
-
-
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).resolve().parent))
-    main(sys.stdin, _answer)
+    from program import send
+
+    main(sys.stdin, send)

@@ -4,10 +4,7 @@ It imports nothing of the package, and needs nothing but this folder and the lib
 `main`); lines of JSON go out. The records go into a file that the parent holds open, as an uncompressed LAS has them.
 """
 
-import importlib.util
 import json
-import mmap
-import os
 import sys
 from pathlib import Path
 
@@ -28,13 +25,11 @@ def main(lines, answer):
         Called with each answer: ``{"at": records so far}``, ``{"done": records}``, or ``{"error": text}``.
     """
     from confinement import confine, reopened
+    from program import library_at, shared_memory
 
     request = json.loads(next(iter(lines)))
-    number, path = request["columns"]
-    if number is None:
-        number = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
-    records = memoryview(mmap.mmap(number, 0))
-    library = _library_at(request["library"])
+    records = shared_memory(*request["columns"])
+    library = library_at("lazrs", request["library"])
     confine(**{key: request[key] for key in ("memory", "written", "seconds")})
     answer({"ready": True})
     try:
@@ -55,19 +50,8 @@ def main(lines, answer):
         answer({"error": str(error)[:10_000]})
 
 
-def _library_at(path):
-    """Lazrs as it lies in the wheel, without the Python around it."""
-    spec = importlib.util.spec_from_file_location("lazrs", path)
-    library = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(library)
-    return library
-
-
-def _answer(answer):
-    sys.stdout.write(json.dumps(answer) + "\n")
-    sys.stdout.flush()
-
-
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).resolve().parent))
-    main(sys.stdin, _answer)
+    from program import send
+
+    main(sys.stdin, send)

@@ -30,9 +30,8 @@ class ConfinedReading:
     kind : str
         Of the file, for messages: "E57".
     file : binary file
-        Open.
+        Open; systems that cannot hand that on open it anew.
     path : Path
-        Its place, for messages and for systems that cannot hand on what is open.
     size : int
         Bytes of the shared memory.
     limits : dict

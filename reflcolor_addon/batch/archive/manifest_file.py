@@ -1,0 +1,299 @@
+"""Reads the manifest of a batch: a TOML file that names scans, photos, seeds, settings and outputs.
+
+Its errors are collected and reported together, each with its line.
+"""
+
+import tomllib
+from dataclasses import replace
+from difflib import get_close_matches
+from pathlib import Path
+
+from ...errors import SettingsError, UsageError
+from ...files.gate import contents
+from ...files.images import IMAGE_SUFFIXES
+from ...messages import Message
+from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
+from ..paths import files_of_each
+from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, default_settings, filled
+from ..read import distinct, safe_label
+from .folder import BatchFolder
+from .manifest import Item, Manifest
+from .manifest_table import ManifestTable, last_value
+from .toml_lines import TomlLines
+
+FORMAT, VERSION = "reflcolor-batch", 1
+_MOST_BYTES = 64 << 20
+_RESULTS = tuple(suffix.removeprefix(".") for suffix in RESULT_SUFFIXES)
+_OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
+_OF_EACH = ("write", "render", "preset", "settings", "seeds")
+_OF_ONE = ("file", "name", "site", "scan", "photos", "hand", "skip")
+_OF_SITE = (*_OF_EACH, "photos", "hand")
+
+
+def load_manifest(path, refuse):
+    """Read a manifest.
+
+    Parameters
+    ----------
+    path : Path
+    refuse : callable
+        Given a UsageError for each thing that is wrong. Without any the manifest can be worked on.
+
+    Returns
+    -------
+    Manifest or None
+        None where the file cannot be read as TOML.
+    """
+    try:
+        text = contents(path, "a manifest (.toml)", error=UsageError, most=_MOST_BYTES).decode("utf-8-sig")
+        document = tomllib.loads(text)
+    except UsageError as error:
+        refuse(error)
+        return None
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        refuse(UsageError("{file}: line {line}: is not UTF-8; save it as UTF-8", file=path, line=line))
+        return None
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        refuse(UsageError("{file}: is not TOML: {reason}", file=path, reason=str(error)))
+        return None
+    return _Reader(path, document, TomlLines(text), refuse).manifest()
+
+
+class _Reader:
+    def __init__(self, path, document, lines, refuse):
+        self._path, self._lines, self._refuse = path, lines, refuse
+        self._whole = ManifestTable(document, (), self)
+        self._folder = None
+        self._entries = {}
+
+    def refuse_at(self, at, template, /, **values):
+        line = self._lines.of(*at)
+        self._refuse(UsageError("{file}: line {line}: " + template, file=self._path, line=line, **values))
+
+    def manifest(self):
+        whole = self._whole
+        whole.known((*_OF_ALL, *_OF_EACH, "scan"))
+        found = whole.get("format", str, ""), whole.get("version", int, 0)
+        if found != (FORMAT, VERSION):
+            whole.refuse(
+                "format" if "format" in whole else None,
+                "expected format = {format} and version = {version}",
+                format=f'"{FORMAT}"',
+                version=VERSION,
+            )
+        output = whole.get("output", str)
+        if output is None and "output" not in whole:
+            whole.refuse(None, "output: is missing; name the folder for the results")
+        self._folder = BatchFolder(self._path.parent / (output or "."))
+        pool = self._files(whole, "photos", "photo") or []
+        pool = list(dict.fromkeys(path for _, path in pool))
+        pairs = whole.get("pairs", str)
+        if pairs is not None and not (self._path.parent / pairs).is_file():
+            whole.refuse("pairs", "pairs: there is no file {path}", path=pairs)
+        items = self._items(pool)
+        if not items:
+            whole.refuse("scans" if "scans" in whole else None, "no scan is named; give scans = [...]")
+        return Manifest(
+            path=self._path,
+            folder=self._folder,
+            items=tuple(items),
+            photos=tuple(pool),
+            pairs=None if pairs is None else self._path.parent / pairs,
+        )
+
+    def _files(self, table, key, what):
+        """(place, path) of the files that a list of names and patterns means; None where there is no list."""
+        texts = table.texts(key)
+        if texts is None:
+            return None
+        found = []
+        for place, text in texts:
+            paths = self._matching(text)
+            if not paths:
+                table.refuse(place, "{what} {text!r}: there is no such file", what=what, text=text)
+            if what == "photo":
+                for path in paths:
+                    if path.suffix.lower() not in IMAGE_SUFFIXES:
+                        table.refuse(
+                            place,
+                            "photo {path}: is no image by its name; expected one of {known}",
+                            path=path,
+                            known=", ".join(IMAGE_SUFFIXES),
+                        )
+            found += [((*table.at, *place), path) for path in paths]
+        return found
+
+    def _matching(self, text):
+        """The files that a name or a pattern means."""
+        folder = self._path.parent
+        try:
+            # The name of an existing file is taken literally: it may contain brackets.
+            if (folder / text).is_file():
+                return [folder / text]
+            pattern = Path(text)
+            if pattern.is_absolute():
+                folder, pattern = Path(pattern.anchor), pattern.relative_to(pattern.anchor)
+            return sorted(path for path in folder.glob(str(pattern)) if path.is_file())
+        except (OSError, ValueError):  # a null character, an empty pattern
+            return []
+
+    def _items(self, pool):
+        places = {}
+        for at, path in self._files(self._whole, "scans", "scan") or []:
+            places.setdefault(path, at)
+        tables = self._scan_tables()
+        entries = {path: [] for path in places}
+        for table in tables:
+            for _, path in self._files(table, "file", "scan") or []:
+                entries.setdefault(path, []).append(table)
+                places[path] = table.at
+        of_each = self._whole
+        groups, skipped = {}, set()
+        for path, own in entries.items():
+            chain = [of_each, *own]
+            if last_value(own, "skip", bool, False):
+                skipped.add(path)
+                continue
+            site = last_value(own, "site", str, None)
+            key = ("site", site) if site else ("file", str(path))
+            groups.setdefault(key, []).append((path, chain))
+        names = []
+        for (kind, key), members in groups.items():
+            path, chain = members[0]
+            stem = (
+                path.name.removesuffix("".join(path.suffixes[-2:])) if path.name.endswith(".scan.json") else path.stem
+            )
+            names.append(safe_label(key if kind == "site" else last_value(chain[1:], "name", str, None) or stem))
+        names = distinct(names, joint="_", key=str.casefold)
+        return [self._item(name, members, places, pool) for name, members in zip(names, groups.values(), strict=True)]
+
+    def _scan_tables(self):
+        if "scan" not in self._whole:
+            return []
+        found = self._whole["scan"]
+        if not isinstance(found, list) or not all(isinstance(values, dict) for values in found):
+            self._whole.refuse("scan", "scan: expected [[scan]] tables")
+            return []
+        tables = [ManifestTable(values, ("scan", place), self) for place, values in enumerate(found)]
+        for table in tables:
+            table.known((*_OF_ONE, *_OF_EACH))
+            if "file" not in table:
+                table.refuse(None, "file: is missing; say which scan is meant")
+        return tables
+
+    def _item(self, name, members, places, pool):
+        path, own = members[0][0], self._tables_of(members)
+        chain = [self._whole, *own]
+        photos = _last_files(self, own)
+        seeds = self._seeds(chain, name, photos if photos is not None else pool)
+        hand = self._hand(own, name)
+        offered = photos is None and seeds is None and bool(pool)
+        photos = pool if photos is None else photos
+        place = places[path]
+        if seeds is None and not photos:
+            self.refuse_at(place, "{path}: has neither seeds nor photos; give one of them", path=path)
+        outputs = self._outputs(chain)
+        plan = Plan(
+            scans=tuple(path for path, _ in members),
+            wanted=last_value(own, "scan", str, None) or ("all" if len(members) == 1 else None),
+            name=name,
+            seeds=seeds,
+            hand=hand,
+            photos=tuple(photos),
+            settings=self._settings(chain),
+            outputs=outputs,
+        )
+        return Item(name=name, plan=plan, offered=offered, line=self._lines.of(*place))
+
+    def _tables_of(self, members):
+        """The tables of all scans of an item; those of a site may not disagree, for they are worked on together."""
+        tables = list({id(table): table for _, chain in members for table in chain[1:]}.values())
+        if len(members) == 1:
+            return tables
+        first = {}
+        for table in tables:
+            if "scan" in table:
+                table.refuse("scan", "scan: a scan of a site is one of a file of its own; leave it out")
+            for key in set(_OF_SITE) & set(table):
+                if first.setdefault(key, table)[key] != table[key]:
+                    table.refuse(key, "{key}: another scan of the same site has another value; give one", key=key)
+        return tables
+
+    def _hand(self, own, name):
+        table = next((table for table in reversed(own) if "hand" in table), None)
+        text = None if table is None else table.get("hand", str)
+        if text is None:
+            return None
+        path = self._path.parent / text
+        if not files_of_each(path, name):
+            table.refuse("hand", "hand {text!r}: there is no file {path}", text=text, path=filled(path, name))
+        return path
+
+    def _seeds(self, chain, name, photos):
+        """The seeds of an item; one that the manifest names for all scans need not be there where photos are."""
+        for table in reversed(chain):
+            text = table.get("seeds", str)
+            if text is None:
+                continue
+            path = self._path.parent / text
+            if files_of_each(path, name):
+                return path
+            if table is not self._whole or not photos:
+                table.refuse("seeds", "seeds {text!r}: there is no file {path}", text=text, path=filled(path, name))
+            return None
+        return None
+
+    def _outputs(self, chain):
+        outputs = []
+        for table in reversed(chain):
+            texts = table.texts("write")
+            if texts is None:
+                continue
+            for place, text in texts:
+                if text.removeprefix(".").lower() not in _RESULTS:
+                    table.refuse(place, "write {text!r}: expected one of {known}", text=text, known=", ".join(_RESULTS))
+                else:
+                    outputs.append("." + text.removeprefix(".").lower())
+            break
+        else:
+            outputs.append(".png")
+        found = [
+            Output("write", self._folder.result(PLACEHOLDER, suffix), RESULT_SUFFIXES[suffix])
+            for suffix in dict.fromkeys(outputs)
+        ]
+        if last_value(chain, "render", bool, False):
+            found.append(Output("render", self._folder.render(PLACEHOLDER), RENDER))
+        return (*found, *self._folder.records(PLACEHOLDER))
+
+    def _settings(self, chain):
+        preset = last_value(chain, "preset", str, DEFAULT_PRESET)
+        name = next((name for name in PRESETS if name.casefold() == preset.casefold()), None)
+        if name is None:
+            table = next(table for table in reversed(chain) if "preset" in table)
+            table.refuse("preset", "preset {found!r}: expected one of {known}", found=preset, known=", ".join(PRESETS))
+        settings = default_settings(name or DEFAULT_PRESET)
+        for table in chain:
+            for key, value in table.get("settings", dict, {}).items():
+                settings = self._with_setting(table, settings, key, value)
+        return settings
+
+    def _with_setting(self, table, settings, key, value):
+        if key not in SETTINGS:
+            near = get_close_matches(key, SETTINGS, 1)
+            hint = Message("; did you mean {name}?", name=near[0]) if near else ""
+            table.refuse(("settings", key), "unknown setting {key!r}{hint}", key=key, hint=hint)
+            return settings
+        try:
+            value = SETTINGS[key].named(value) if isinstance(value, str) else value
+            return replace(settings, **{key: value})
+        except SettingsError as error:
+            table.refuse(("settings", key), "{problem}", problem=error.message)
+            return settings
+
+
+def _last_files(reader, tables):
+    for table in reversed(tables):
+        if "photos" in table:
+            return list(dict.fromkeys(path for _, path in reader._files(table, "photos", "photo")))
+    return None

@@ -1,0 +1,68 @@
+"""A table of a batch's manifest, whose values are checked when they are asked for."""
+
+from difflib import get_close_matches
+
+from ...messages import Message
+
+
+class ManifestTable:
+    """A table of the manifest: its values by name, of the right type; what is wrong is said with its line."""
+
+    def __init__(self, values, at, reader):
+        self._values, self.at, self._reader = values, at, reader
+
+    def known(self, names):
+        """Refuse every key that is none of these."""
+        for name in self._values:
+            if name not in names:
+                near = get_close_matches(name, names, 1)
+                hint = Message("; did you mean {name}?", name=near[0]) if near else ""
+                self.refuse(name, "unknown key {key!r}{hint}", key=name, hint=hint)
+
+    def refuse(self, key, template, /, **values):
+        """Report what is wrong with a key, a place below one, or (None) the table itself."""
+        path = self.at if key is None else (*self.at, *(key if isinstance(key, tuple) else (key,)))
+        self._reader.refuse_at(path, template, **values)
+
+    def __contains__(self, key):
+        return key in self._values
+
+    def __iter__(self):
+        return iter(self._values)
+
+    def __getitem__(self, key):
+        return self._values[key]
+
+    def get(self, key, kind, default=None):
+        """Return a value of one type; the default if it is missing or has another type."""
+        value = self._values.get(key)
+        if value is None:
+            return default
+        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+            names = {str: "a text in quotes", bool: "true or false", int: "a whole number", dict: "a table"}
+            self.refuse(key, "{key}: expected {expected}, found {found!r}", key=key, expected=names[kind], found=value)
+            return default
+        return value
+
+    def texts(self, key):
+        """Return a list of texts, or one text as a list, each with its place; None where it is missing."""
+        value = self._values.get(key)
+        if value is None:
+            return None
+        if isinstance(value, str):
+            return [((key,), value)]
+        if not isinstance(value, list):
+            self.refuse(key, "{key}: expected a list of texts, found {found!r}", key=key, found=value)
+            return []
+        for place, text in enumerate(value):
+            if not isinstance(text, str):
+                self.refuse((key, place), "{key}: expected a text in quotes, found {found!r}", key=key, found=text)
+        return [((key, place), text) for place, text in enumerate(value) if isinstance(text, str)]
+
+
+def last_value(tables, key, kind, default):
+    """Return the value of the last table that has one."""
+    for table in reversed(tables):
+        if key in table:
+            return table.get(key, kind, default)
+    return default

@@ -1,0 +1,171 @@
+"""A batch that is ended, whose workers are killed, whose folder goes, or which meets another batch."""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from archives import make_archive, outputs_of
+from command_line import process_line, run_process
+
+from reflcolor_addon.batch.archive.folder import BatchFolder
+from reflcolor_addon.batch.archive.workers import Workers
+from reflcolor_addon.errors import OutputError
+
+COUNT, SHAPE = 4, (60, 90)
+
+
+def test_two_batches_on_one_folder_leave_each_other_alone(archive, batch):
+    folder = BatchFolder(Path("colored"))
+    folder.make()
+    with folder.claimed("hall_1") as mine:
+        assert mine
+        # A lock belongs to a process: the other batch is one of its own.
+        done = run_process("batch", "batch.toml", "--jobs", "1", cwd=archive)
+    assert done.returncode == 0
+    assert "hall_1" in done.stderr and "another batch" in done.stderr
+    assert not (archive / "colored" / "hall_1.png").exists()
+    assert (archive / "colored" / "hall_2.png").exists()
+
+
+def test_two_batches_share_the_work(archive, batch):
+    line, options = process_line("batch", "batch.toml", "--jobs", "1", "--resume")
+    both = [subprocess.Popen(line, cwd=archive, stdout=subprocess.PIPE, **options) for _ in range(2)]
+    said = b"".join(process.communicate()[0] for process in both).decode()
+    assert [process.returncode for process in both] == [0, 0]
+    assert said.count(": done in") == 3
+    assert "0 done, 3 done before" in batch("--resume")[1]
+
+
+def test_a_worker_that_is_killed_is_replaced(archive, batch, monkeypatch):
+    from reflcolor_addon.batch.archive import workers
+
+    killed, give = [], workers.Workers._give
+
+    def give_and_kill(self, worker, task):
+        give(self, worker, task)
+        if task.name == "hall_1" and not killed:
+            killed.append(worker.process.pid)
+            worker.process.kill()
+
+    monkeypatch.setattr(workers.Workers, "_give", give_and_kill)
+    monkeypatch.setattr("reflcolor_addon.batch.archive.options.Options.wait_s", 0.0)
+    status, out, _ = batch()
+    assert killed and status == 0
+    assert "hall_1: its process ended (SIGKILL); trying again" in out
+    assert "3 done" in out
+
+
+class _Worker:
+    """What `Workers` sees of a process."""
+
+    def __init__(self, in_blender):
+        self.in_blender, self.task = in_blender, None
+        self.process = SimpleNamespace(stdin=io.StringIO())
+
+
+def test_a_worker_that_was_sent_home_gets_no_work(monkeypatch):
+    pool = Workers(count=2, threads=1, memory=0, blender=("blender",), cancelled=lambda: False)
+    pool._processes = [_Worker(False), _Worker(False)]
+
+    def started(in_blender):
+        pool._processes.append(_Worker(in_blender))
+        return pool._processes[-1]
+
+    monkeypatch.setattr(pool, "_started", started)
+    first = pool._idle(True)
+    first.task = "a scene"
+    assert pool._processes[0].process.stdin.closed
+    assert pool._idle(False) is pool._processes[1]
+    pool._processes[1].task = "an image"
+    # Two are at work, and the third is about to end.
+    assert [worker.process.stdin.closed for worker in pool._processes] == [True, False, False]
+
+
+def test_workers_end_with_their_parent(archive):
+    """A worker whose standard input ends is gone soon, whatever it was doing."""
+    line, options = process_line("work")
+    with subprocess.Popen(line, stdin=subprocess.PIPE, stdout=subprocess.PIPE, **options) as worker:
+        worker.stdin.close()
+        assert worker.wait(timeout=60) == 0
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """What a batch makes that nothing happens to."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    make_archive(folder, COUNT, SHAPE)
+    run_process("batch", "batch.toml", "--jobs", "2", cwd=folder)
+    return outputs_of(folder / "colored")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX systems")
+@pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGKILL])
+def test_a_batch_that_is_ended_goes_on_where_it_was(tmp_path, monkeypatch, undisturbed, stop):
+    monkeypatch.chdir(tmp_path)
+    make_archive(tmp_path, COUNT, SHAPE)
+    line, options = process_line("batch", "batch.toml", "--jobs", "2", "--resume")
+    process = subprocess.Popen(line, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
+    done = tmp_path / "colored" / "batch-state" / "done"
+    while process.poll() is None and not (done.is_dir() and any(done.iterdir())):
+        time.sleep(0.02)
+    process.send_signal(stop)
+    process.communicate(timeout=60)
+    if stop == signal.SIGTERM:
+        assert process.returncode == 143
+    finished = {path.name: path.stat().st_mtime_ns for path in done.glob("*.json")}
+    again = run_process("batch", "batch.toml", "--jobs", "2", "--resume", cwd=tmp_path)
+    assert again.returncode == 0, again.stderr
+    assert f"{COUNT - len(finished)} done, {len(finished)} done before" in again.stdout
+    assert finished.items() <= {path.name: path.stat().st_mtime_ns for path in done.glob("*.json")}.items()
+    assert not list((tmp_path / "colored").rglob(".reflcolor-*"))
+
+    assert outputs_of(tmp_path / "colored") == undisturbed
+
+
+def test_an_unwritable_folder_is_named_before_the_work(archive, batch):
+    (archive / "colored").write_text("a file")
+    status, _, err = batch()
+    assert status == 2 and "colored" in err
+
+
+def test_a_folder_that_vanishes_ends_the_batch_in_one_line(archive, batch, monkeypatch):
+    from reflcolor_addon.batch.archive import stage
+
+    kept = stage._kept
+
+    def kept_and_gone(*arguments):
+        outcome = kept(*arguments)
+        (archive / "colored").rename(archive / "away")
+        return outcome
+
+    monkeypatch.setattr(stage, "_kept", kept_and_gone)
+    status, _, err = batch("--keep-going")
+    assert status == 1 and err.count("error:") == 1
+    assert "colored: the output folder is gone; bring it back, and run the batch again with --resume" in err
+    (archive / "away").rename(archive / "colored")
+    monkeypatch.undo()
+    monkeypatch.chdir(archive)
+    status, out, _ = batch("--resume")
+    assert status == 0 and "2 done, 1 done before" in out
+
+
+def test_a_record_that_cannot_be_kept_costs_one_scan_and_no_other(archive, batch, monkeypatch):
+    from reflcolor_addon.batch.archive.done import Done
+
+    record = Done.record
+
+    def full(self, name, *arguments):
+        if name == "hall_1":
+            raise OutputError("{file}: cannot be written (No space left on device)", file="done")
+        record(self, name, *arguments)
+
+    monkeypatch.setattr(Done, "record", full)
+    status, out, err = batch("--keep-going")
+    assert status == 1 and "2 done, 0 done before, 1 failed" in out
+    assert "hall_1: failed: done: cannot be written (No space left on device)" in out and "hall_1" in err
+    monkeypatch.undo()
+    monkeypatch.chdir(archive)
+    assert "1 done, 2 done before" in batch("--resume")[1]

@@ -1,0 +1,90 @@
+"""What a batch reports: the page, its table, the table of pairs."""
+
+import csv
+import json
+import sys
+from pathlib import Path
+
+import pytest
+from archives import make_archive, table_of
+
+from reflcolor_addon.batch.archive.pairs import COLUMNS, read_pairs, write_pairs
+from reflcolor_addon.cli.main import main
+from reflcolor_addon.errors import UsageError
+
+
+def test_the_table_of_pairs_survives_a_spreadsheet(tmp_path):
+    path = tmp_path / "pairs.csv"
+    write_pairs(path, [("hall, east", "photos/a.png", "yes", "2.10", "straight"), ("b", "p.jpg", "no", "0.1", "")])
+    known = {("hall, east", "photos/a.png"): True, ("b", "p.jpg"): False}
+    assert read_pairs(path) == known
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    edited = "\r\n".join(";".join(f'"{cell}"' for cell in row) for row in rows)
+    path.write_bytes(b"\xef\xbb\xbf" + edited.encode("utf-8"))
+    assert read_pairs(path) == known
+    path.write_text("scan,photo\na,b\n")
+    with pytest.raises(UsageError, match="expected the columns " + ", ".join(COLUMNS[:3])):
+        read_pairs(path)
+
+
+def test_the_report_page_is_one_file_that_tells_of_every_scan(archive, batch):
+    (archive / "hall_0.ptx").write_text("no scan\n")
+    batch("--keep-going")
+    page = (archive / "colored" / "report.html").read_text(encoding="utf-8")
+    for name in ("hall_0", "hall_1", "hall_2"):
+        assert f'data-value="{name}"' in page
+    assert page.count("data:image/jpeg;base64,") == 2
+    assert "http://" not in page.replace("http://www.w3.org", "") and "https://" not in page
+    before = page
+    (archive / "colored" / "report.html").unlink()
+    assert main(["report", "colored"]) == 0
+    assert (archive / "colored" / "report.html").read_text(encoding="utf-8") == before
+
+
+def test_a_name_that_is_markup_is_shown_as_text(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = make_archive(tmp_path, count=1)
+    text = path.read_text(encoding="utf-8").replace('file = "hall_0.ptx"', 'file = "hall_0.ptx"\nname = "<b>&amp;"')
+    path.write_text(text, encoding="utf-8")
+    assert main(["batch", "batch.toml", "--jobs", "1"]) == 0
+    page = (tmp_path / "colored" / "report.html").read_text(encoding="utf-8")
+    assert "<b>" not in page
+
+
+def test_many_scans_are_told_on_several_pages(archive, batch, monkeypatch):
+    batch()
+    monkeypatch.setattr("reflcolor_addon.report.archive._SCANS_ON_A_PAGE", 2)
+    assert main(["report", "colored"]) == 0
+    first, second = (archive / "colored" / name for name in ("report.html", "report 2.html"))
+    pages = [path.read_text(encoding="utf-8") for path in (first, second)]
+    assert [page.count("<tr data-state") for page in pages] == [2, 1]
+    assert all('href="report 2.html"' in page and 'href="report.html"' in page for page in pages)
+    assert len(table_of(archive)) == 3
+    monkeypatch.undo()
+    monkeypatch.chdir(archive)
+    assert main(["report", "colored"]) == 0
+    assert not second.exists() and "<nav" not in first.read_text(encoding="utf-8")
+
+
+def test_reports_of_a_batch_name_their_outputs(archive, batch):
+    batch()
+    report = json.loads((archive / "colored" / "reports" / "hall_0.json").read_text(encoding="utf-8"))
+    assert [Path(output["path"]).name for output in report["outputs"]] == [
+        "hall_0.png",
+        "hall_0.ply",
+        "hall_0.jpg",
+        "hall_0.json",
+    ]
+    assert sys.version.split()[0] == report["versions"]["python"]
+
+
+def test_a_damaged_report_costs_no_other_its_place_on_the_page(archive, batch):
+    batch()
+    path = archive / "colored" / "reports" / "hall_1.json"
+    report = json.loads(path.read_text(encoding="utf-8"))
+    report["settings"] = "none"
+    path.write_text(json.dumps(report), encoding="utf-8")
+    assert main(["report", "colored"]) == 0
+    rows = table_of(archive)
+    assert [rows[f"hall_{number}"]["state"] for number in range(3)] == ["done", "failed", "done"]
