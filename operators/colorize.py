@@ -8,7 +8,7 @@ from .scene import polls
 from .scene.colorized_object import show_colorization
 from .scene.images import packed_pixels
 from .scene.notices import show_result, show_results
-from .scene.photo_colors import observed_reader, use_cameras
+from .scene.photo_colors import observed_cameras, observed_reader, use_cameras
 from .scene.provenance import record_provenance, window_report
 from .scene.scan_object import grid_indices, scan_reader
 from .scene.seed_list import seeds_of
@@ -35,6 +35,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
         self._settings = core_settings(self, context.scene, COLORIZE_NAMES)
         # Jobs hold names, not objects: after an undo, objects may be gone or be different ones.
         jobs = [_job(obj, self._settings) for obj in scans]
+        self._cameras = {obj.name: observed_cameras(obj) for obj in scans}
 
         def work(progress, cancelled):
             colorize_jobs(jobs, self._settings, progress=progress, cancelled=cancelled)
@@ -56,7 +57,7 @@ class REFLCOLOR_OT_colorize(JobOperator, ColorizeArguments, bpy.types.Operator):
         for obj, job, picture in done:
             result = job.colorization
             show_colorization(obj, result, picture)
-            use_cameras(obj)
+            use_cameras(obj, self._cameras[job.name])
             record_provenance(obj, window_report(obj, result, self._settings, job.seeds))
             said = report_text("Colorized {name} from {count} seeds", name=obj.name, count=len(result.seeds))
             show_result(self, obj, said, result.warnings, job.seeds, one_of_several=len(results) > 1)

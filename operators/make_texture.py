@@ -49,8 +49,12 @@ class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
         cameras = cameras_of(obj)
         read_scan, pixels = scan_reader(obj), self.pixels
         shots = [_shot(camera, camera_image(obj, number)) for number, camera in enumerate(cameras)]
-        leading = [number for number in np.unique(photo[observed > 0]).tolist() if 0 <= number < len(shots)]
-        self._missing = [cameras[number][0] for number in leading if cameras[number] and shots[number] is None]
+        leading = {number for number in np.unique(photo[observed > 0]).tolist() if number >= 0}
+        there = {number for number, shot in enumerate(shots) if shot is not None}
+        names = {number: camera[0] for number, camera in enumerate(cameras) if camera is not None}
+        self._missing = [
+            names.get(number) or report_text("photo {number}", number=number + 1) for number in sorted(leading - there)
+        ]
 
         def work(progress, cancelled):
             return texture(read_scan(), rgb, observed, photo, shots, pixels, progress=progress, cancelled=cancelled)

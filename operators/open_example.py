@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 
 from ..reflcolor_addon.errors import ScanError
-from .scene.blender_errors import blender_reason
+from .scene.blender_errors import refusal_of
 from .scene.reports import reported
 
 _FOLDER = Path(__file__).parents[1] / "examples" / "cones"
@@ -36,7 +36,7 @@ class REFLCOLOR_OT_open_example(bpy.types.Operator):
             # In the window it continues after this call, so it comes last.
             outcome = bpy.ops.reflcolor.import_scan(self._way, filepath=str(_FOLDER / _SCAN))
         except RuntimeError as error:
-            raise ScanError("the example: {reason}", reason=blender_reason(error)) from error
+            raise ScanError("the example: {reason}", reason=refusal_of(error)) from error
         return {"CANCELLED"} if "CANCELLED" in outcome else {"FINISHED"}
 
 

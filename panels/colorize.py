@@ -52,7 +52,7 @@ class Colorize(Step):
         draw_act(row, "reflcolor.set_up_render", "Set Up Render", icon="OUTLINER_OB_CAMERA")
         row.operator("render.render", text="Render", icon="RENDER_STILL")
         if lacks_surface(context.scene, scene_picture(context.scene)):
-            layout.label(text="Set Up Render again to fill holes", icon="INFO")
+            layout.label(text="Set Up Render again to show this", icon="INFO")
         if obj is None:
             layout.label(text="Needs a scan", icon="INFO")
         elif not any(scan.reflcolor.seeds for scan in polls.scan_objects(context)):

@@ -1,16 +1,20 @@
 """A batch that is ended, whose workers are killed, whose folder goes, or which meets another batch."""
 
+import io
 import os
 import signal
 import subprocess
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from archives import make_archive, outputs_of
 from command_line import process_line, run_process
 
+from reflcolor_addon.batch.archive.done import Done
 from reflcolor_addon.batch.archive.folder import BatchFolder
+from reflcolor_addon.batch.archive.registrations import Registrations
 from reflcolor_addon.batch.archive.workers import Workers
 from reflcolor_addon.errors import OutputError
 
@@ -169,3 +173,35 @@ def test_a_record_that_cannot_be_kept_costs_one_scan_and_no_other(archive, batch
     monkeypatch.undo()
     monkeypatch.chdir(archive)
     assert "1 done, 2 done before" in batch("--resume")[1]
+
+
+def test_a_result_that_is_gone_before_it_is_recorded_costs_one_scan_and_no_other(archive, batch, monkeypatch):
+    record = Done.record
+
+    def record_without_its_output(self, name, stage, key, outcome):
+        if name == "hall_1":
+            Path(outcome["written"][0]).unlink()
+        record(self, name, stage, key, outcome)
+
+    monkeypatch.setattr(Done, "record", record_without_its_output)
+    status, out, err = batch("--keep-going")
+    assert status == 1 and "2 done" in out and "1 failed" in out
+    assert "hall_1" in err and "Traceback" not in err
+
+
+def test_files_that_cannot_be_hashed_share_no_registration(tmp_path):
+    folder = BatchFolder(tmp_path)
+    folder.make()
+    known = Registrations(folder, {"a.ptx": "1", "one.jpg": "", "two.jpg": ""})
+    job = SimpleNamespace(path="a.ptx", index=1)
+    assert [known(job, photo, lambda photo=photo: photo) for photo in ("one.jpg", "two.jpg")] == ["one.jpg", "two.jpg"]
+    assert not list(tmp_path.glob("**/*.json"))
+
+
+def test_nothing_is_known_of_work_on_files_that_cannot_be_hashed(tmp_path):
+    folder = BatchFolder(tmp_path)
+    folder.make()
+    done = Done(folder, None)
+    done.record("hall", "color", done.key("color", None, {"a.ptx": ""}), {"written": []})
+    assert done.recall("hall", "color") is not None
+    assert done.recall("hall", "color", done.key("color", None, {"a.ptx": ""})) is None

@@ -78,6 +78,14 @@ def test_a_site_takes_what_any_of_its_scans_says_and_refuses_what_they_disagree_
     assert [fault[: fault.index(": ", 9)] for fault in faults] == ["line 13: scan", "line 12: preset"]
 
 
+def test_what_counts_for_a_site_is_the_last_value_of_each_scan(folder):
+    both = '[[scan]]\nfile = "hall_*.ptx"\npreset = "Natural"\n'
+    site = '[[scan]]\nfile = "hall_*.ptx"\nsite = "hall"\npreset = "Paper"\n'
+    manifest, faults = read(folder, HEAD + 'photos = "photos/a.png"\n' + both + site)
+    assert faults == []
+    assert manifest.items[0].plan.settings.light == 0
+
+
 def test_scans_of_one_name_in_different_folders_get_names_of_their_own(folder):
     for name in ("east", "west"):
         (folder / name).mkdir()

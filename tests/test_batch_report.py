@@ -88,3 +88,12 @@ def test_a_damaged_report_costs_no_other_its_place_on_the_page(archive, batch):
     assert main(["report", "colored"]) == 0
     rows = table_of(archive)
     assert [rows[f"hall_{number}"]["state"] for number in range(3)] == ["done", "failed", "done"]
+
+
+def test_pages_of_an_earlier_report_go_and_nothing_else(archive, batch):
+    batch()
+    folder = archive / "colored"
+    for name in ("report 2.html", "report 31.html", "report final.html", "report 2 old.html"):
+        (folder / name).write_text("mine or not")
+    assert main(["report", "colored"]) == 0
+    assert {path.name for path in folder.glob("report *.html")} == {"report final.html", "report 2 old.html"}

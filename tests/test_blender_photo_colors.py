@@ -102,7 +102,7 @@ def test_cameras_come_back_and_what_is_spoiled_is_none(colorized):
     obj = colorized.context.active_object
     for kept, found in (("nonsense", []), ("[null]", [None])):
         obj["reflcolor_cameras"] = kept
-        module.use_cameras(obj)
+        module.use_cameras(obj, module.observed_cameras(obj))
         assert module.cameras_of(obj) == found
 
 
@@ -125,9 +125,28 @@ def test_the_photo_of_a_camera_is_known_whatever_its_image_is_called_now(coloriz
     for images, found in (({"view.png": image}, image), (None, None)):
         image.name = "view.png"
         module.keep_cameras(obj, [match], images)
-        module.use_cameras(obj)
+        module.use_cameras(obj, module.observed_cameras(obj))
         image.name = "renamed"
         assert module.camera_image(obj, 0) == found
     # A file made without its photos knows them by name alone.
     image.name = "view.png"
     assert module.camera_image(obj, 0) == image
+
+
+def test_cameras_are_those_that_were_there_when_the_work_began(colorized):
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.photo_colors")
+    obj = colorized.context.active_object
+    obj["reflcolor_cameras"] = "[null]"
+    seen = module.observed_cameras(obj)
+    module.keep_observed(obj, None)
+    module.use_cameras(obj, seen)
+    assert module.cameras_of(obj) == [None]
+
+
+def test_an_image_that_was_looked_at_shows_what_is_written_into_it_again(colorized):
+    images = importlib.import_module(f"{EXTENSION}.operators.scene.images")
+    image = None
+    for level, shape in ((10, (4, 6, 3)), (200, (4, 6, 3)), (90, (8, 5, 3))):
+        image = images.write_image(image, "twice", np.full(shape, level, np.uint8), is_data=False)
+        assert tuple(image.size) == shape[1::-1]
+        assert (images.read_image(image) == level).all()

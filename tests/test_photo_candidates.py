@@ -6,8 +6,10 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from e57_samples import write_e57
+from hypothesis import given
+from hypothesis import strategies as st
 
-from reflcolor_addon.batch.archive.candidates import MOST_SCANS, candidates
+from reflcolor_addon.batch.archive.candidates import MOST_SCANS, _Neighbors, candidates
 from reflcolor_addon.files.exif import Moment, moment_of
 from reflcolor_addon.files.readers.e57_file import acquired_at
 
@@ -110,3 +112,30 @@ def test_a_scan_of_the_photos_day_comes_first():
     taken, day = {"a": Moment(seconds=0.0)}, 86400.0
     assert "a" not in candidates(scores, taken, {"hall": 0.0, "cellar": 0.0})["hall"]
     assert "a" in candidates(scores, taken, {"hall": 0.0, "cellar": 30 * day})["hall"]
+
+
+def taken_together(one, other):
+    """By the times where both have one, else by their places: 60 seconds, 10 meters."""
+    if one.seconds is not None and other.seconds is not None:
+        return abs(one.seconds - other.seconds) <= 60
+    if None in (one.latitude, one.longitude, other.latitude, other.longitude):
+        return False
+    north = (one.latitude - other.latitude) * 111_195
+    east = (one.longitude - other.longitude) * 111_195 * np.cos(np.radians(one.latitude))
+    return np.hypot(north, east) <= 10
+
+
+places = st.none() | st.tuples(st.integers(0, 6), st.integers(0, 6))
+
+
+@given(st.lists(st.tuples(st.none() | st.integers(0, 9), places), max_size=12))
+def test_neighbors_are_those_that_comparing_each_with_each_finds(given_moments):
+    moments = {}
+    for number, (time, place) in enumerate(given_moments):
+        latitude, longitude = (None, None) if place is None else (45 + 4.1e-5 * place[0], 8 + 4.1e-5 * place[1])
+        seconds = None if time is None else 17.0 * time
+        moments[f"{number:02}"] = Moment(seconds=seconds, latitude=latitude, longitude=longitude)
+    neighbors = _Neighbors(moments)
+    for photo, own in moments.items():
+        expected = [other for other, its in moments.items() if other != photo and taken_together(own, its)]
+        assert neighbors.of(photo) == expected

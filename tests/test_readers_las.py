@@ -116,7 +116,7 @@ def test_a_header_that_does_not_fit_is_told(tmp_path, suffix, at, format_, value
 
 def test_a_count_beyond_the_file_is_told_before_anything_is_allocated(tmp_path):
     data = bytearray(written(tmp_path / "hall.las", version="1.2", point_format=2).read_bytes())
-    for count, said in ((400_000_000, "memory|cut short"), (2**32 - 1, "claims 4,294,967,295 points")):
+    for count, said in ((400_000_000, "memory|cut short"), (2**32 - 1, "its header says 4,294,967,295 points")):
         struct.pack_into("<I", data, _COUNT, count)
         (tmp_path / "odd.las").write_bytes(data)
         with pytest.raises(ScanError, match=said):
@@ -129,14 +129,12 @@ def test_compressed_points_that_make_no_sense_are_told(tmp_path):
         start = reader.header.offset_to_point_data
     data = whole[: start + 8] + bytes(255 - byte for byte in whole[start + 8 :])
     (tmp_path / "odd.laz").write_bytes(data)
-    try:
+    with pytest.raises(ScanError, match=r"^odd\.laz: [^\n]*(damaged|too few)[^\n]*$"):
         read_scans(tmp_path / "odd.laz", options=ANGLE)
-    except ScanError as error:
-        assert "odd.laz: " in str(error) and "\n" not in str(error)
 
 
 def test_a_package_that_is_missing_is_named(tmp_path, monkeypatch):
     path = written(tmp_path / "hall.laz")
-    monkeypatch.setattr(las.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(las, "native_library", lambda *_: None)
     with pytest.raises(ScanError, match=r"hall.laz: LAZ needs lazrs, which is missing; export its points as LAS"):
         read_scans(path, options=ANGLE)

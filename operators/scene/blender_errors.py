@@ -13,6 +13,19 @@ def blender_reason(error):
     return said[-1].removeprefix("Error: ")
 
 
+def refusal_of(error):
+    """Return why another operator of this extension refused to work, of the RuntimeError that it raised.
+
+    Raises
+    ------
+    RuntimeError
+        The error itself, where it is no refusal but a defect.
+    """
+    if "Traceback" in str(error):
+        raise error
+    return blender_reason(error)
+
+
 def path_fault(path):
     """Return why Blender can neither read nor write a path, whatever is there; None where it can."""
     try:

@@ -46,7 +46,8 @@ def write_packed(image, name, data, *, is_data):
     if image is None:
         image = bpy.data.images.new(name, 1, 1, alpha=False, is_data=is_data)
     image.pack(data=data, data_len=len(data))
-    # Makes Blender drop its cached pixels.
+    # Pixels that were decoded before stay otherwise: the source alone changes nothing where it is a file already.
+    image.buffers_free()
     image.source = "FILE"
     return image
 

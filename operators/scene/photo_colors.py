@@ -6,6 +6,7 @@ them to nobody and no export takes them.
 
 import hashlib
 import json
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -99,16 +100,36 @@ def keep_cameras(obj, matches, images=None):
     obj[_PHOTOS] = {str(number): images.get(name) for number, name in enumerate(names)}
 
 
-def use_cameras(obj):
-    """Keep the cameras with the colors: an object was colorized, and its attribute ``photo`` counts these photos."""
-    obj[_USED] = obj.get(_CAMERAS, "[]")
-    obj[_USED_PHOTOS] = obj[_PHOTOS].to_dict() if _PHOTOS in obj else {}
+class Cameras(NamedTuple):
+    """The cameras of the photos that observed colors come from, while a job runs; holds no data of Blender."""
+
+    models: str
+    """JSON, as on the object."""
+    images: dict
+    """The ``session_uid`` of each photo's image, None where it is gone, by the photo's place in the list as text."""
+
+
+def observed_cameras(obj):
+    """Return the `Cameras` that go with the observed colors that are kept now."""
+    images = obj[_PHOTOS].to_dict() if _PHOTOS in obj else {}
+    return Cameras(
+        obj.get(_CAMERAS, "[]"),
+        {number: None if image is None else image.session_uid for number, image in images.items()},
+    )
+
+
+def use_cameras(obj, cameras):
+    """Keep cameras with the colors: an object was colorized, and its attribute ``photo`` counts these photos."""
+    images = {image.session_uid: image for image in bpy.data.images}
+    obj[_USED] = cameras.models
+    obj[_USED_PHOTOS] = {number: images.get(uid) for number, uid in cameras.images.items()}
 
 
 def cameras_of(obj):
     """Return (name, model) of each photo that ``photo`` counts, None for one that was not recognized; else nothing."""
     try:
-        kept = json.loads(obj.get(_USED, "[]"))
+        # Files of earlier versions have only the cameras that were last found.
+        kept = json.loads(obj.get(_USED, obj.get(_CAMERAS, "[]")))
         return [None if each is None else (each["name"], model_of(each["model"])) for each in kept]
     except (ValueError, TypeError, KeyError, AttributeError):
         return []

@@ -20,6 +20,8 @@ def read_provenance(path):
         with bpy.data.libraries.load(str(path), link=True) as (there, wanted):
             wanted.objects = list(there.objects)
     except OSError as error:
-        raise ReflcolorError(f"{path}: Blender could not read it; expected a file saved by Blender") from error
+        raise ReflcolorError(
+            "{file}: Blender could not read it; expected a file saved by Blender", file=path
+        ) from error
     scans = [obj for obj in wanted.objects if obj is not None and (obj.reflcolor.rows or provenance_text(obj))]
     return [(obj.name, provenance_text(obj)) for obj in scans]

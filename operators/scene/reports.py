@@ -3,7 +3,7 @@
 from functools import wraps
 
 from ...reflcolor_addon.failures import line_of
-from .blender_errors import blender_reason
+from .blender_errors import refusal_of
 from .texts import shown
 
 
@@ -19,10 +19,7 @@ def call(operator, act, **arguments):
     try:
         return act("EXEC_DEFAULT", True, **arguments)
     except RuntimeError as error:
-        # A defect of the other one surfaces.
-        if "Traceback" in str(error):
-            raise
-        operator.report({"ERROR"}, blender_reason(error))
+        operator.report({"ERROR"}, refusal_of(error))
         return {"CANCELLED"}
 
 

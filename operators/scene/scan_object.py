@@ -259,4 +259,4 @@ def look_at(obj, name):
 def _check_readable(obj):
     """Raise ScanError in Edit Mode, where Blender keeps the mesh elsewhere and shows its attributes as empty."""
     if obj.data.is_editmode:
-        raise ScanError(f"{obj.name}: leave Edit Mode first")
+        raise ScanError("{name}: leave Edit Mode first", name=obj.name)

@@ -33,7 +33,9 @@ def simulate_file(request, progress, written):
         bpy.ops.wm.open_mainfile(filepath=str(request.scene), load_ui=False, use_scripts=False)
     except RuntimeError as error:
         reason = blender_reason(error)
-        raise ReflcolorError(f"{request.scene}: Blender could not open it: {reason}") from error
+        raise ReflcolorError(
+            "{file}: Blender could not open it: {reason}", file=request.scene, reason=reason
+        ) from error
     scene = bpy.context.scene
     bpy.context.view_layer.update()
     station, item = _station(scene, request)

@@ -146,8 +146,9 @@ def leveled_pose(scene, station, item):
         If there is no such object.
     """
     if item is None and station != "CURSOR":
-        missing = "the scene has no camera" if station == "CAMERA" else "no object is active"
-        raise SettingsError(f"scanner: {missing}; choose where else the scanner stands")
+        if station == "CAMERA":
+            raise SettingsError("scanner: the scene has no camera; choose where else the scanner stands")
+        raise SettingsError("scanner: no object is active; choose where else the scanner stands")
     matrix = scene.cursor.matrix if item is None else item.matrix_world
     return leveled(matrix, scene.unit_settings.scale_length, *_FORWARD[station])
 
@@ -177,14 +178,14 @@ def _writer(path):
         )
     writers = {".ptx": write_ptx, ".e57": write_e57}
     if path.suffix.lower() not in writers:
-        raise OutputError(f"{path}: the suffix tells what to write; expected .ptx, .e57 or .scan.json")
+        raise OutputError("{file}: the suffix tells what to write; expected .ptx, .e57 or .scan.json", file=path)
     return lambda scan, path, model: writers[path.suffix.lower()](scan, path)
 
 
 def _virtual_camera(scene, name):
     item, render = scene.objects.get(name), scene.render
     if item is None or item.type != "CAMERA" or item.data.type != "PERSP":
-        raise SettingsError(f"camera {name}: is no perspective camera of the scene {scene.name}")
+        raise SettingsError("camera {name}: is no perspective camera of the scene {scene}", name=name, scene=scene.name)
     width, height = (
         max(1, side * render.resolution_percentage // 100) for side in (render.resolution_x, render.resolution_y)
     )

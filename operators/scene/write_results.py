@@ -10,7 +10,7 @@ from ...reflcolor_addon.view.shown_surface import shown_surface
 from .add_scan import add_scan_object
 from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
-from .photo_colors import keep_cameras, keep_observed, use_cameras
+from .photo_colors import keep_cameras, keep_observed, observed_cameras, use_cameras
 from .photo_texture import show_texture
 from .provenance import record_provenance
 from .render import render, set_up_picture
@@ -69,7 +69,7 @@ def _add_object(context, job):
     keep_observed(obj, job.seen())
     if job.matching is not None:
         keep_cameras(obj, job.matching.photos)
-    use_cameras(obj)
+    use_cameras(obj, observed_cameras(obj))
     show_colorization(obj, job.colorization)
     if job.texture is not None:
         show_texture(obj, job.texture)

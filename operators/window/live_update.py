@@ -19,6 +19,7 @@ from ..scene.scan_object import own_image, scan_reader, show_like_reflectance
 from ..scene.seed_arrays import seed_arrays
 from ..scene.seed_list import seeds_of
 from ..scene.setting_properties import COLORIZE_NAMES, scene_settings
+from ..scene.texts import shown
 from . import jobs
 
 PREVIEW = "Live Preview"
@@ -135,17 +136,17 @@ def _follow(obj):
             _live = _Live(obj)
         _live.wish(obj, scene_settings(bpy.context.scene, COLORIZE_NAMES))
     except ReflcolorError as error:
-        _message = str(error)
+        _message = shown(error.message)
         return
     result = _live.colorizer.take()
     if result is None:
         return
     error, _message = result.error, ""
     if error is not None:
-        _message = line_of(error)
-        if _message is None:
-            _message = ""
+        line = line_of(error)
+        if line is None:
             raise error
+        _message = shown(line)
         redraw_editors()
     else:
         if result.number == _live.colorizer.latest:

@@ -115,7 +115,7 @@ _MATCHING = {
     "shows {other}; too little of {scan} to take colors from": (
         "zeigt {other}; zu wenig von {scan}, um Farben daraus zu nehmen"
     ),
-    "verified: {evidence}": "geprüft: {evidence}",
+    "verified: {evidence}": "bestätigt: {evidence}",
     "cannot be tested: {reason}": "nicht prüfbar: {reason}",
     "not verified: {reason}": "nicht bestätigt: {reason}",
     "{scan}: {photo} cannot be tested ({reason}); pick four to six pairs by hand to place it": (

@@ -83,6 +83,9 @@ _E57 = {
         "{file}: ihr Kopf passt nicht zur Datei; sie ist beschädigt oder abgeschnitten"
     ),
     "{file}: its header is damaged ({reason})": "{file}: ihr Kopf ist beschädigt ({reason})",
+    "{file}: its header says {count:,} points, expected 1 to {most:,}; export it again": (
+        "{file}: ihr Kopf sagt {count:,} Punkte, erwartet 1 bis {most:,}; neu exportieren"
+    ),
     "{file}: does not say how its points are compressed; it is damaged": (
         "{file}: sagt nicht, wie ihre Punkte komprimiert sind; sie ist beschädigt"
     ),

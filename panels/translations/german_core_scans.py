@@ -155,7 +155,7 @@ _COLORS = {
         "die Farben sind dunkel, weil die Reflektanz es größtenteils ist; Tonwert {tone:g} versuchen"
     ),
     "the colors are guesses: no seed was picked by a person or seen by a photo that was verified": (
-        "die Farben sind geraten: kein Saatpunkt ist von einem Menschen gesetzt oder von einem geprüften Foto gesehen"
+        "die Farben sind geraten: kein Saatpunkt ist von einem Menschen gesetzt oder von einem bestätigten Foto gesehen"
     ),
     "{scan}: expected observed colors of {expected}, found {found}": (
         "{scan}: erwartet gesehene Farben von {expected}, gefunden {found}"

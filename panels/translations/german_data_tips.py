@@ -79,8 +79,8 @@ _SEEDS = {
     "What becomes of the selection": "Was aus der Auswahl wird",
     "What is drawn around the seeds": "Was um die Saatpunkte gezogen wird",
     "What to do at the pointer": "Was am Mauszeiger zu tun ist",
-    "Where a photo's verified camera saw the pixel": "Wo die geprüfte Kamera eines Fotos das Pixel sah",
-    "Where a verified photo shows the pixel": "Wo ein geprüftes Foto das Pixel zeigt",
+    "Where a photo's verified camera saw the pixel": "Wo die bestätigte Kamera eines Fotos das Pixel sah",
+    "Where a verified photo shows the pixel": "Wo ein bestätigtes Foto das Pixel zeigt",
     "Whether the seed is selected in the Image Editors": "Ob der Saatpunkt in den Bildeditoren ausgewählt ist",
 }
 

@@ -258,7 +258,7 @@ _CHOICES = {
     "Uncolored": "Ohne Farbe",
     "Unlock": "Entsperren",
     "Unsure": "Unsichere",
-    "Verified": "Geprüft",
+    "Verified": "Bestätigt",
     "YCbCr": "YCbCr",
     "YUV": "YUV",
 }

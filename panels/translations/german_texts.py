@@ -39,7 +39,8 @@ _PANELS = {
     "Match the photo first": "Erst das Foto zuordnen",
     "Not found on this scan": "Auf diesem Scan nicht gefunden",
     "Not matched with this scan": "Diesem Scan nicht zugeordnet",
-    "Set Up Render again to fill holes": "Löcher füllt „Bild einrichten“",
+    "Set Up Render again to show this": "Noch einmal „Bild einrichten“, um dies zu zeigen",
+    "photo {number}": "Foto {number}",
     "Row {row}, column {col}": "Zeile {row}, Spalte {col}",
     "Seed": "Saatpunkt",
     "Seed Color": "Farbe der Saatpunkte",
@@ -80,7 +81,7 @@ _JOBS = {
     "Match Photos": "Fotos zuordnen",
     "Simulate Laser Scan": "Laserscan simulieren",
     "Move Seeds or Stroke": "Saatpunkte ziehen oder Strich",
-    "Set Up Render": "Rendern einrichten",
+    "Set Up Render": "Bild einrichten",
     "Load Photo": "Foto laden",
 }
 
@@ -119,9 +120,7 @@ _REPORTS = {
     "without the detail of {photos}: not among the images any more": (
         "ohne die Einzelheiten von {photos}: nicht mehr unter den Bildern"
     ),
-    "Writing {name}": "{name} wird geschrieben",
     "Loading {file}": "{file} wird geladen",
-    "{file}: cannot be written ({reason})": "{file}: nicht zu schreiben ({reason})",
     "{file}: cannot be written ({reason}); choose another folder": (
         "{file}: nicht zu schreiben ({reason}); einen anderen Ordner wählen"
     ),

@@ -211,13 +211,13 @@ _SETTINGS = {
         "In Bildern kleine Löcher füllen und Umrisse glätten; das Netz des Scans bleibt, wie es gemessen wurde"
     ),
     "The photo's own colors where a verified one saw the scan; elsewhere as Enhanced, and as light as the photo": (
-        "Die eigenen Farben des Fotos, wo ein geprüftes den Scan sah; sonst wie Verbessert, und so hell wie das Foto"
+        "Die eigenen Farben des Fotos, wo ein bestätigtes den Scan sah; sonst wie Verbessert, und so hell wie das Foto"
     ),
     "Take the color of every pixel that a verified photo saw from the photo; else from seeds alone": (
-        "Die Farbe jedes Pixels, das ein geprüftes Foto sah, vom Foto nehmen; sonst allein von den Saatpunkten"
+        "Die Farbe jedes Pixels, das ein bestätigtes Foto sah, vom Foto nehmen; sonst allein von den Saatpunkten"
     ),
     "Where a color is one that a verified photo saw there, 1, and where it is inferred from others, 0": (
-        "Wo eine Farbe die ist, die ein geprüftes Foto dort sah, 1, und wo sie aus anderen erschlossen ist, 0"
+        "Wo eine Farbe die ist, die ein bestätigtes Foto dort sah, 1, und wo sie aus anderen erschlossen ist, 0"
     ),
     "Make an image with the detail of the photos, and show it on the scan instead of the colors of its vertices": (
         "Ein Bild mit den Einzelheiten der Fotos erzeugen und auf dem Scan statt der Farben seiner Punkte zeigen"
@@ -275,7 +275,7 @@ _SETTINGS = {
         "Superpixel, in die der Scan und jedes Foto geteilt werden; in jedem ist höchstens ein Saatpunkt"
     ),
     "Take guessed colors from photos that could not be verified; they may be those of another place": (
-        "Geratene Farben aus Fotos nehmen, die nicht geprüft werden konnten; es können die eines anderen Ortes sein"
+        "Geratene Farben aus Fotos nehmen, die nicht bestätigt werden konnten; es können die eines anderen Ortes sein"
     ),
     "The method as published": "Das Verfahren, wie veröffentlicht",
     "What measured best on real scans: smoothed reflectance, fewer seeds per pixel, kriging": (

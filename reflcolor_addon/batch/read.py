@@ -35,6 +35,7 @@ def read_jobs(plan, given, session, times):
     with timed(times, "read"):
         jobs = _scan_jobs(plan, session)
     check_placeholder(plan, len(jobs))
+    session.left_out += [job.label for job in jobs if job.label in plan.left_out]
     jobs = [job for job in jobs if job.label not in plan.left_out]
     if plan.seeds is not None:
         with timed(times, "seeds"):

@@ -11,7 +11,7 @@ from .gate import opened
 # Cameras write it at the beginning; a segment of a JPEG holds 64 KB at most.
 _BEGINNING, _MOST_PARTS = 1 << 20, 256
 _EXIF_IFD, _GPS_IFD, _TAKEN, _CHANGED = 0x8769, 0x8825, 0x9003, 0x0132
-_SIZES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 8, 7: 1}
+_SIZES = {2: 1, 3: 2, 4: 4, 5: 8}
 
 
 @dataclass(frozen=True, kw_only=True)

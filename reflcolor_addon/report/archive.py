@@ -3,11 +3,12 @@
 import base64
 import csv
 import io
+import re
 from html import escape
 from importlib.resources import files
 from string import Template
 
-from ..errors import ReflcolorError
+from ..errors import OutputError, ReflcolorError
 from ..files.atomic import written_atomically
 from ..files.gate import contents
 from ..files.json_files import read_json
@@ -19,6 +20,7 @@ from .provenance import outline, read_report
 REPORTS, PAGE, TABLE = "reports", "report.html", "report.csv"
 # A browser is slow with more; then there are several pages.
 _SCANS_ON_A_PAGE, _OTHER_PAGE = 1000, "report {number}.html"
+_IS_OTHER_PAGE = re.compile(r"report [1-9]\d*\.html")
 STATE, ITEMS = "batch-state", "items"
 """Where a batch's folder holds the reports, this page, its table, and what became of the items."""
 _COLUMNS = (
@@ -86,10 +88,17 @@ def _write_pages(root, entries):
         with written_atomically(root / name) as temporary:
             text = _page(root, entries, part, _ways(names, parts, number))
             temporary.write_text(text, encoding="utf-8", errors="xmlcharrefreplace")
-    for path in root.glob(_OTHER_PAGE.format(number="*")):
+    for path in root.iterdir():
         # Of an earlier time, when there were more.
-        if path.name not in names:
-            path.unlink(missing_ok=True)
+        if _IS_OTHER_PAGE.fullmatch(path.name) and path.name not in names:
+            try:
+                path.unlink(missing_ok=True)
+            except OSError as error:
+                raise OutputError(
+                    "{file}: is of an earlier report, and cannot be deleted ({reason})",
+                    file=path,
+                    reason=error.strerror,
+                ) from error
 
 
 def _ways(names, parts, own):
@@ -120,7 +129,9 @@ def _entries(root, session):
     for name, item in items.items():
         left_out = item.get("left_out") or []
         for label in left_out:
-            # An older report may exist from a time when a photo showed it.
+            # Older reports may exist from a time when a photo showed it, or scans of its file.
+            for older in [older for older in entries if older.startswith(f"{label}+")]:
+                del entries[older]
             entries[label] = _entry(label, "unshown", note="no photo shows this scan")
         if item.get("outcome") == "failed":
             own = [label for label in entries if label == name or label.startswith(f"{name}+")]
@@ -194,8 +205,7 @@ def _row(entry):
     states.append("done" if entry["state"] == "guessed" else "")
     colored = "" if entry["colored"] == "" else f"{entry['colored']:.1%}"
     photos = "" if entry["photos"] == "" else f"{entry['verified_photos']} of {entry['photos']}"
-    kind = "guessed" if entry["state"] == "guessed" else entry["state"]
-    state = f'<span class="status {kind}">{escape(_STATES[entry["state"]])}</span>'
+    state = f'<span class="status {entry["state"]}">{escape(_STATES[entry["state"]])}</span>'
     cells = [
         f'<td data-label="">{_tiles(entry)}</td>',
         f'<th scope="row" data-value="{escape(entry["scan"])}">{escape(entry["scan"])}</th>',

@@ -70,7 +70,8 @@ def scenario_marks_have_the_colors_of_their_seeds(window):
     found = yield from window.colors_at([*patches, *images, *meshes])
     bpy.types.SpaceView3D.draw_handler_remove(handler, "WINDOW")
     wanted, marks = found[: len(COLORS)], found[len(COLORS) :]
-    window.check(apart(wanted[1], COLORS[1]) <= 8, f"Blender itself shows {COLORS[1]} as {wanted[1]}")
+    for shown, color in zip(wanted, COLORS, strict=True):
+        window.check(apart(shown, color) <= 8, f"Blender itself shows {color} as {shown}")
     for number, shown in enumerate(marks):
         mark, where = number % len(COLORS), "in the image" if number < len(COLORS) else "on the mesh"
         off = max(abs(one - other) for one, other in zip(shown, wanted[mark], strict=True))

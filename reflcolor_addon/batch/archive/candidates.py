@@ -1,6 +1,7 @@
 """Which photos are matched with which scans: by first looks, and by when and where they were taken."""
 
 import math
+from bisect import bisect_left, bisect_right
 from statistics import median_high
 
 from ...files.exif import Moment
@@ -40,7 +41,8 @@ def candidates(scores, moments=None, scanned=None):
             shares.setdefault(photo, {})[name] = score / usual[name]
     shares = {photo: _of_the_best(own) for photo, own in shares.items()}
     moments = {photo: its for photo, its in (moments or {}).items() if photo in shares and its != Moment()}
-    supported = {photo: _supported(photo, shares, moments) for photo in shares}
+    others = _Neighbors(moments)
+    supported = {photo: _supported(photo, shares, others) for photo in shares}
     chosen = {name: [] for name in scores}
     for photo, own in supported.items():
         moment = moments.get(photo)
@@ -48,7 +50,7 @@ def candidates(scores, moments=None, scanned=None):
             own = {name: share * _of_its_day(moment.seconds, scanned.get(name)) for name, share in own.items()}
         ranked = sorted(_of_the_best(own).items(), key=lambda entry: (-entry[1], entry[0]))
         for name, share in ranked[:MOST_SCANS]:
-            if share > 0 and share >= LEAST_SHARE:
+            if share >= LEAST_SHARE:
                 chosen[name].append((share, photo))
     return {
         name: [photo for _, photo in sorted(own, key=lambda entry: (-entry[0], entry[1]))]
@@ -62,22 +64,52 @@ def _of_the_best(shares):
     return {name: share / best if best > 0 else 0.0 for name, share in shares.items()}
 
 
-def _supported(photo, shares, moments):
+def _supported(photo, shares, neighbors):
     """A photo's shares, and the mean ones of photos that were taken together with it."""
-    own, moment = shares[photo], moments.get(photo)
-    if moment is None:
-        return own
-    others = [shares[other] for other, its in moments.items() if other != photo and _together(moment, its)]
+    own, others = shares[photo], [shares[other] for other in neighbors.of(photo)]
     if not others:
         return own
     return {name: share + sum(other.get(name, 0.0) for other in others) / len(others) for name, share in own.items()}
 
 
-def _together(one, other):
-    if one.seconds is not None and other.seconds is not None:
-        return abs(one.seconds - other.seconds) <= _TOGETHER_S
-    if None in (one.latitude, one.longitude, other.latitude, other.longitude):
-        return False
+class _Neighbors:
+    """Which photos were taken together: by their times where both have one, else by their places."""
+
+    def __init__(self, moments):
+        self._moments = moments
+        placed = {photo: its for photo, its in moments.items() if None not in (its.latitude, its.longitude)}
+        self._by_time = _Sorted({photo: its.seconds for photo, its in moments.items() if its.seconds is not None})
+        self._by_latitude = _Sorted({photo: its.latitude for photo, its in placed.items()})
+        untimed = {photo: its.latitude for photo, its in placed.items() if its.seconds is None}
+        self._untimed_by_latitude = _Sorted(untimed)
+
+    def of(self, photo):
+        """Return the other photos, in their order."""
+        own = self._moments.get(photo)
+        if own is None:
+            return []
+        found = set() if own.seconds is None else set(self._by_time.near(own.seconds, _TOGETHER_S))
+        if None not in (own.latitude, own.longitude):
+            places = self._by_latitude if own.seconds is None else self._untimed_by_latitude
+            near = places.near(own.latitude, _TOGETHER_M / _METERS_PER_DEGREE)
+            found |= {other for other in near if _beside(own, self._moments[other])}
+        return sorted(found - {photo})
+
+
+class _Sorted:
+    """Photos in the order of a number that each has."""
+
+    def __init__(self, numbers):
+        pairs = sorted((number, photo) for photo, number in numbers.items())
+        self._numbers, self._photos = [number for number, _ in pairs], [photo for _, photo in pairs]
+
+    def near(self, number, distance):
+        """Return the photos whose number is at most so far from another."""
+        first, last = bisect_left(self._numbers, number - distance), bisect_right(self._numbers, number + distance)
+        return self._photos[first:last]
+
+
+def _beside(one, other):
     north = one.latitude - other.latitude
     east = (one.longitude - other.longitude) * math.cos(math.radians(one.latitude))
     return math.hypot(north, east) * _METERS_PER_DEGREE <= _TOGETHER_M

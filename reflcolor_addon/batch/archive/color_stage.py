@@ -9,7 +9,7 @@ from ..paths import files_of_each
 from ..plan import IMAGE, PLACEHOLDER, RENDER, Output
 from ..plan_document import as_document
 from .costs import memory_of, seconds_of
-from .options import COLOR, KNOWN, UNSHOWN
+from .options import COLOR, ELSEWHERE, KNOWN, UNSHOWN
 from .pairs import NO, UNTESTED, YES, write_pairs
 from .stage import remember_item, work_on
 from .workers import Task
@@ -29,9 +29,13 @@ def colorize_items(context, states, photos):
     for state in states:
         plan = color_plan(context, state.item, photos)
         if plan.seeds is None and not plan.photos:
-            state.outcome, state.left_out = UNSHOWN, [state.item.name]
-            context.done.forget(state.item.name, COLOR)
-            remember_item(context, state)
+            with context.folder.claimed(state.item.name) as mine:
+                if not mine:
+                    state.outcome = ELSEWHERE
+                    continue
+                state.outcome, state.left_out = UNSHOWN, [state.item.name]
+                context.done.forget(state.item.name, COLOR)
+                remember_item(context, state)
             continue
         inputs = [path for _, path in inputs_of(plan, plan.scans)]
         for given in filter(None, (plan.seeds, plan.hand)):

@@ -80,11 +80,11 @@ class Context:
             return stop
 
         def begun(task):
-            nonlocal done
+            nonlocal count
             if begin(task):
                 return True
-            left.add(task.cost)
-            done += 1
+            left.drop(task.cost)
+            count -= 1
             return False
 
         self.workers.work(tasks, counted, show, begun)

@@ -3,6 +3,7 @@
 import time
 from pathlib import Path
 
+from ...errors import OutputError
 from ..plan_document import as_document
 from .fingerprints import digest_of, program_digest
 
@@ -29,8 +30,11 @@ class Done:
         stage : str
         plan : Plan
         hashes : dict of str to str
-            Of every input, by its path.
+            Of every input, by its path; an empty text for one that could not be hashed. Then the key is empty, too, and
+            nothing counts as done.
         """
+        if not all(hashes.values()):
+            return ""
         return digest_of([program_digest(), stage, as_document(plan), sorted(hashes.items())])
 
     def record(self, name, stage, key, outcome):
@@ -45,7 +49,7 @@ class Done:
         With ``since``, a time in seconds since 1970, work that was finished earlier does not count.
         """
         record = self._folder.recall(KIND, f"{name} {stage}")
-        if record is None or (key is not None and record.get("key") != key):
+        if record is None or (key is not None and (not key or record.get("key") != key)):
             return None
         if since is not None and not record.get("ended", 0.0) > since:
             return None
@@ -65,7 +69,11 @@ class Done:
 
     def forget(self, name, stage):
         """Delete a record before its outputs are written again."""
-        self._folder.state(KIND, f"{name} {stage}.json").unlink(missing_ok=True)
+        path = self._folder.state(KIND, f"{name} {stage}.json")
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise OutputError("{file}: cannot be written ({reason})", file=path, reason=error.strerror) from error
 
     def _output(self, path):
         return [*_state(Path(path)), self._fingerprints.of(path)]

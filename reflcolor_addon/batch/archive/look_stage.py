@@ -34,13 +34,28 @@ def photos_of_items(context, items, known_pairs):
 
     def finished(task, outcome):
         if not outcome["done"]:
+            if outcome.get("may_pass") and tries[task.name] < context.options.tries:
+                tries[task.name] += 1
+                alone = outcome.get("alone", False)
+                tasks.append(task.again(0.0 if alone else context.options.wait_s, alone))
+                return
             unseen.add(task.name)
+            if not outcome.get("cancelled"):
+                context.session.warnings.append(
+                    Message(
+                        "{name}: {problem}; all photos are matched with it",
+                        name=task.name,
+                        problem=outcome["error"].rstrip("."),
+                    )
+                )
             return
         scores[task.name] = outcome["found"]["scores"]
         problems.update(outcome["found"]["problems"])
 
     tasks = [_task(context, item, known(item, None), hashes) for item in items]
-    context.work([task for task in tasks if task.request["photos"]], finished, "Looked at photos for")
+    tasks = [task for task in tasks if task.request["photos"]]
+    tries = dict.fromkeys((task.name for task in tasks), 1)
+    context.work(tasks, finished, "Looked at photos for")
     for path, problem in problems.items():
         context.session.warnings.append(Message("{photo}: {problem}", photo=photos[path], problem=problem))
     moments = {path: moment_of(path) for path in photos}

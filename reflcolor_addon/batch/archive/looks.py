@@ -31,9 +31,12 @@ def look_at(request, *, progress, cancelled):
         each photo that cannot be read why.
     """
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
-    key = digest_of([program_digest(), *(hashes[path] for path in request["scans"])])
-    known = folder.recall(KIND, key) or {}
-    problems, missing = {}, [path for path in request["photos"] if hashes[path] not in known]
+    scans = [hashes[path] for path in request["scans"]]
+    # Files that could not be hashed cannot be told from one another: nothing is kept about them.
+    key = digest_of([program_digest(), *scans]) if all(scans) else None
+    known = (key and folder.recall(KIND, key)) or {}
+    scores = {path: known[hashes[path]] for path in request["photos"] if hashes[path] in known}
+    problems, missing = {}, [path for path in request["photos"] if path not in scores]
     views = _views(request["scans"], progress, cancelled) if missing else []
 
     def step():
@@ -49,11 +52,12 @@ def look_at(request, *, progress, cancelled):
             except ReflcolorError as error:
                 problems[path] = str(error)
                 continue
-            known[hashes[path]] = max((first_look(own, photo, step) for own in views), default=0.0)
+            scores[path] = max((first_look(own, photo, step) for own in views), default=0.0)
+            if hashes[path]:
+                known[hashes[path]] = scores[path]
     finally:
-        if missing:
+        if missing and key:
             folder.remember(KIND, key, known)
-    scores = {path: known[hashes[path]] for path in request["photos"] if hashes[path] in known}
     return {"scores": scores, "problems": problems}
 
 
@@ -68,13 +72,14 @@ def _sketch(folder, path, key):
     """A photo made small, kept for the other scans."""
     import cv2
 
-    kept = folder.state(KIND, f"{key}.png")
-    if kept.is_file():
+    kept = folder.state(KIND, f"{key}.png") if key else None
+    if kept is not None and kept.is_file():
         return read_image(kept)
     rgb = read_image(path)
     scale = max(rgb.shape) / _SKETCH_SIDE
     if scale > 1:
         size = max(1, round(rgb.shape[1] / scale)), max(1, round(rgb.shape[0] / scale))
         rgb = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
-    write_png(kept, rgb)
+    if kept is not None:
+        write_png(kept, rgb)
     return rgb

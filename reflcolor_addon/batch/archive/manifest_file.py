@@ -211,13 +211,19 @@ class _Reader:
         tables = list({id(table): table for _, chain in members for table in chain[1:]}.values())
         if len(members) == 1:
             return tables
-        first = {}
         for table in tables:
             if "scan" in table:
                 table.refuse("scan", "scan: a scan of a site is one of a file of its own; leave it out")
-            for key in set(_OF_SITE) & set(table):
-                if first.setdefault(key, table)[key] != table[key]:
+        for key in _OF_SITE:
+            # What counts for each scan: the last table that has it; settings add up.
+            chains = [[table for table in chain[1:] if key in table] for _, chain in members]
+            values = [[table[key] for table in chain] for chain in chains if chain]
+            values = [_merged(own) if key == "settings" else own[-1] for own in values]
+            tables_of_key = [chain[-1] for chain in chains if chain]
+            for table, value in zip(tables_of_key, values, strict=True):
+                if value != values[0]:
                     table.refuse(key, "{key}: another scan of the same site has another value; give one", key=key)
+                    break
         return tables
 
     def _hand(self, own, name):
@@ -290,6 +296,14 @@ class _Reader:
         except SettingsError as error:
             table.refuse(("settings", key), "{problem}", problem=error.message)
             return settings
+
+
+def _merged(values):
+    """Settings of several tables together; what is no table is reported where it is used."""
+    merged = {}
+    for value in values:
+        merged |= value if isinstance(value, dict) else {}
+    return merged
 
 
 def _last_files(reader, tables):

@@ -27,9 +27,6 @@ class ManifestTable:
     def __contains__(self, key):
         return key in self._values
 
-    def __iter__(self):
-        return iter(self._values)
-
     def __getitem__(self, key):
         return self._values[key]
 

@@ -19,6 +19,10 @@ class TimeLeft:
         """Count what was done."""
         self._done += cost
 
+    def drop(self, cost):
+        """Take out what need not be done."""
+        self._whole = max(self._whole - cost, 1e-9)
+
     def share(self, running=0.0):
         """Return how much is done, 0 to 1; ``running`` is what was done of what is not finished yet."""
         return min((self._done + running) / self._whole, 1.0)

@@ -21,7 +21,11 @@ class Registrations:
 
     def __call__(self, job, photo, register):
         """Return the `Registration` of a photo on a scan; ``register()`` finds it where it is not known yet."""
-        key = digest_of([program_digest(), self._hashes[str(job.path)], job.index, self._hashes[str(photo)]])
+        own, other = self._hashes[str(job.path)], self._hashes[str(photo)]
+        if not (own and other):
+            # Files that could not be hashed cannot be told from one another.
+            return register()
+        key = digest_of([program_digest(), own, job.index, other])
         known = self._folder.recall(KIND, key)
         if known is not None:
             try:

@@ -2,14 +2,16 @@
 
 from contextlib import ExitStack
 
+from ...report.archive import ITEMS
 from ...threads import thread_count
 from .color_stage import colorize_items
 from .context import Context
 from .done import Done
 from .fingerprints import Fingerprints
 from .look_stage import photos_of_items
-from .options import COLOR, LOOK, RENDERING, State
+from .options import COLOR, FAILED, KNOWN, LOOK, RENDERING, STAGES, State
 from .render_stage import render_items
+from .stage import remember_item
 from .workers import Workers
 
 
@@ -66,4 +68,14 @@ def run_batch(manifest, options, known_pairs, session):
             colorize_items(context, states, photos)
         if RENDERING in options.stages:
             render_items(context, states)
+        if set(options.stages) == set(STAGES):
+            _correct_items(context, states)
     return states
+
+
+def _correct_items(context, states):
+    """Record that items are done which failed in an earlier run, in a part that is not asked for any more."""
+    for state in states:
+        known = context.folder.recall(ITEMS, state.item.name) or {}
+        if state.outcome == KNOWN and known.get("outcome") == FAILED:
+            remember_item(context, state)

@@ -2,9 +2,10 @@
 
 import time
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ...errors import OutputError, ReflcolorError
+from ...failures import line_of
 from ...messages import Message
 from ...report.archive import ITEMS
 from .options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, State
@@ -42,6 +43,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             claim = ExitStack()
             if not claim.enter_context(context.folder.claimed(piece.state.item.name)):
                 piece.state.outcome = ELSEWHERE
+                claim.close()
                 return False
             if _is_known(context, stage, piece.state, piece.key, since=None if options.resume else start):
                 claim.close()
@@ -61,16 +63,18 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             piece.tries += 1
             alone = outcome.get("alone", False)
             wait = 0.0 if alone else options.wait_s
-            tasks.append(replace(task, not_before=time.monotonic() + wait, alone=alone))
+            tasks.append(task.again(wait, alone))
             context.session.say(
                 Message("{name}: {problem}; trying again", name=state.item.name, problem=_bare(outcome["error"]))
             )
             return False
         count += 1
-        state.left_out = outcome.get("left_out", [])
+        state.left_out = outcome.get("left_out") or state.left_out
         if outcome["done"]:
             state.outcome = DONE if outcome["written"] or not state.left_out else UNSHOWN
-        elif not outcome.get("cancelled"):
+        elif outcome.get("cancelled"):
+            state.outcome = OPEN
+        else:
             state.outcome, state.error = FAILED, outcome["error"]
         remember_item(context, state)
         _write_log(task, outcome)
@@ -113,8 +117,8 @@ def _kept(context, stage, piece, outcome, done):
         done(piece.state, outcome)
         context.done.record(piece.state.item.name, stage, piece.key, outcome)
         context.fingerprints.save(_SAVE_EVERY_S)
-    except ReflcolorError as error:
-        return outcome | {"done": False, "error": str(error), "may_pass": may_pass(error)}
+    except (ReflcolorError, OSError) as error:
+        return outcome | {"done": False, "error": str(line_of(error)), "may_pass": may_pass(error)}
     return outcome
 
 

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import threading
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...errors import Cancelled, ReflcolorError
@@ -53,6 +53,10 @@ class Task:
     log: Path | None = None
     not_before: float = 0.0
     alone: bool = False
+
+    def again(self, wait_s, alone=False):
+        """Return the same task for another try after so many seconds."""
+        return replace(self, not_before=time.monotonic() + wait_s, alone=alone)
 
 
 @dataclass(eq=False)

@@ -1,9 +1,12 @@
 """A file that native code reads in a child process, into memory that is shared with it."""
 
+import contextlib
+import importlib.util
 import mmap
 import os
 import sys
 import tempfile
+import weakref
 from pathlib import Path
 
 from ...errors import ScanError
@@ -55,6 +58,9 @@ class ConfinedReading:
         shared, shown = shared_file(size)
         try:
             self.memory = mmap.mmap(shared, size)
+            if shown:
+                # Windows lets nobody remove what is still mapped; the arrays that are handed out hold it.
+                weakref.finalize(self.memory, _remove, shown)
             handed_on = sys.platform != "win32"
             with OneLine(path, kind):
                 self._child = Child(
@@ -71,7 +77,6 @@ class ConfinedReading:
                 )
         finally:
             os.close(shared)
-            self._shown = shown
 
     def __enter__(self):
         try:
@@ -83,8 +88,6 @@ class ConfinedReading:
 
     def __exit__(self, *_):
         self._child.__exit__()
-        if self._shown:
-            Path(self._shown).unlink(missing_ok=True)
 
     def ask(self, request):
         """Send a request."""
@@ -129,5 +132,27 @@ def shared_file(size):
         if sys.platform != "win32":
             Path(shown).unlink()
             shown = ""
-    os.ftruncate(number, size)
+    try:
+        os.ftruncate(number, size)
+    except OSError:
+        os.close(number)
+        if shown:
+            _remove(shown)
+        raise
     return number, shown
+
+
+def _remove(path):
+    with contextlib.suppress(OSError):
+        Path(path).unlink()
+
+
+def native_library(package, pattern):
+    """Return the path of a native module in a package, by a pattern of its name; None where it is missing."""
+    try:
+        spec = importlib.util.find_spec(package)
+    except (ImportError, ValueError):
+        spec = None
+    folders = [Path(folder) for folder in spec.submodule_search_locations or ()] if spec else []
+    files = (file for folder in folders for file in sorted(folder.glob(pattern)))
+    return next((file for file in files if file.suffix in (".so", ".pyd")), None)

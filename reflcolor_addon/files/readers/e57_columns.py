@@ -1,6 +1,5 @@
 """The points of an E57 file, read by a child process into memory that is shared with it."""
 
-import importlib.util
 import re
 import sys
 from pathlib import Path
@@ -8,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import ScanError
-from ..confined.reading import ConfinedReading
+from ..confined.reading import ConfinedReading, native_library
 from ..gate import size_of
 
 SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "e57_points.py"
@@ -118,20 +117,11 @@ class E57Columns:
 
 def library_of(path):
     """Where libE57 lies in the wheel, and the folders of the libraries that it needs on Windows."""
-    try:
-        spec = importlib.util.find_spec("pye57")
-    except (ImportError, ValueError):
-        spec = None
-    folders = [Path(folder) for folder in spec.submodule_search_locations] if spec else []
-    found = next((file for folder in folders for file in sorted(folder.glob("libe57.*")) if _is_native(file)), None)
+    found = native_library("pye57", "libe57.*")
     if found is None:
         raise ScanError("{file}: E57 needs pye57, which this platform has not; export the scan as PTX", file=path.name)
     beside = (found.parent, found.parent.with_name("pye57.libs"))
     return found, [str(folder) for folder in beside if sys.platform == "win32" and folder.is_dir()]
-
-
-def _is_native(path):
-    return path.suffix in (".so", ".pyd")
 
 
 def reason_of(text, unknown="cannot be read as E57"):

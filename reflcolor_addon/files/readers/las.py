@@ -1,7 +1,6 @@
 """LAS and LAZ: points without a grid, as aerial and mobile programs and many converters write them."""
 
 import importlib
-import importlib.util
 import struct
 import sys
 from pathlib import Path
@@ -11,7 +10,7 @@ import numpy as np
 from ...errors import Cancelled, ScanError
 from ...messages import Message, one_line
 from ...scan.limits import MOST_PIXELS
-from ..confined.reading import ConfinedReading
+from ..confined.reading import ConfinedReading, native_library
 from ..gate import size_of
 from .cloud import check_size, scan_of_columns
 from .formats import Format
@@ -94,7 +93,12 @@ def _header(file, path):
     except (laspy.errors.LaspyException, ValueError, LookupError, TypeError, ArithmeticError, struct.error) as e:
         raise ScanError("{file}: its header is damaged ({reason})", file=path.name, reason=one_line(str(e), 200)) from e
     if not 0 < header.point_count <= MOST_PIXELS:
-        raise ScanError("{file}: claims {count:,} points", file=path.name, count=header.point_count)
+        raise ScanError(
+            "{file}: its header says {count:,} points, expected 1 to {most:,}; export it again",
+            file=path.name,
+            count=header.point_count,
+            most=MOST_PIXELS,
+        )
     if not fits:
         raise damaged
     return header
@@ -117,10 +121,7 @@ def _stored(file, path, header, report):
 
 def _decompressed(file, path, header, report, cancelled):
     """The records of a LAZ, as bytes, decompressed in a child process."""
-    spec = importlib.util.find_spec("lazrs")
-    folders = [Path(folder) for folder in spec.submodule_search_locations] if spec else []
-    native = (file for folder in folders for file in sorted(folder.glob("lazrs.*")))
-    library = next((file for file in native if file.suffix in (".so", ".pyd")), None)
+    library = native_library("lazrs", "lazrs.*")
     if library is None:
         raise ScanError("{file}: LAZ needs lazrs, which is missing; export its points as LAS", file=path.name)
     laszip = [record for record in header.vlrs if (record.user_id, record.record_id) == _LASZIP]

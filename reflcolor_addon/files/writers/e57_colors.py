@@ -85,8 +85,6 @@ def _point_colors(file, source, colors, path, options, warnings, progress, cance
                     all=len(known),
                 )
             )
-    if not places:
-        raise OutputError("{file}: {source} no longer holds any of the scans", file=path, source=source.name)
     return parts, places
 
 
