@@ -213,7 +213,6 @@ _OUTPUTS = {
     "{file}: scan '{scan}': {count:,} of {all:,} points have no color: they are not part of its grid": (
         "{file}: Scan '{scan}': {count:,} von {all:,} Punkten haben keine Farbe: sie gehören nicht zu seinem Raster"
     ),
-    "{file}: {source} no longer holds any of the scans": "{file}: {source} enthält keinen der Scans mehr",
     "{path}: would have {size:.1f} GiB, and a GLB holds at most 4 GiB; make the mesh lighter with --faces, or write "
     ".ply or .blend": (
         "{path}: hätte {size:.1f} GiB, und ein GLB fasst höchstens 4 GiB; das Netz mit --faces leichter machen, oder "

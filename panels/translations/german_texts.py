@@ -41,6 +41,23 @@ _PANELS = {
     "Not matched with this scan": "Diesem Scan nicht zugeordnet",
     "Set Up Render again to show this": "Noch einmal „Bild einrichten“, um dies zu zeigen",
     "photo {number}": "Foto {number}",
+    "{name}: leave Edit Mode first": "{name}: zuerst den Bearbeitungsmodus verlassen",
+    "scanner: the scene has no camera; choose where else the scanner stands": (
+        "Scanner: die Szene hat keine Kamera; einen anderen Ort für den Scanner wählen"
+    ),
+    "scanner: no object is active; choose where else the scanner stands": (
+        "Scanner: kein Objekt ist aktiv; einen anderen Ort für den Scanner wählen"
+    ),
+    "{file}: the suffix tells what to write; expected .ptx, .e57 or .scan.json": (
+        "{file}: die Endung bestimmt, was geschrieben wird; erwartet .ptx, .e57 oder .scan.json"
+    ),
+    "camera {name}: is no perspective camera of the scene {scene}": (
+        "Kamera {name}: ist keine perspektivische Kamera der Szene {scene}"
+    ),
+    "{file}: Blender could not read it; expected a file saved by Blender": (
+        "{file}: Blender konnte sie nicht lesen; erwartet eine von Blender gesicherte Datei"
+    ),
+    "{file}: Blender could not open it: {reason}": "{file}: Blender konnte sie nicht öffnen: {reason}",
     "Row {row}, column {col}": "Zeile {row}, Spalte {col}",
     "Seed": "Saatpunkt",
     "Seed Color": "Farbe der Saatpunkte",
