@@ -292,7 +292,7 @@ def main(folder):
 
 
 def facing(position, target):
-    """Pose of a leveled scanner at ``position`` that looks towards ``target``."""
+    """Pose of a leveled scanner at ``position`` that looks toward ``target``."""
     across, along = np.subtract(target, position)[:2]
     turn = np.arctan2(-across, along)
     pose = np.eye(4)

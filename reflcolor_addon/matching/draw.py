@@ -30,8 +30,8 @@ def draw_matches(scan: Scan, photos: Photos, seeds: Seeds) -> np.ndarray:
     -------
     (H, W, 3) uint8
         The reflectance on square pixels with the seeds in their colors, the photos beside it, and lines between; green
-        for ``pose``, blue for ``homography``, orange for ``appearance``, magenta for ``hand``. Of very many
-        seeds only some have a line. A seed of confidence 0 has none: its color comes from no single place.
+        for ``pose``, blue for ``homography``, orange for ``appearance``, magenta for ``hand``. If there are very many
+        seeds, only some have a line. A seed of confidence 0 has none: its color comes from no single place.
 
     Examples
     --------

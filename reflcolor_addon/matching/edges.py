@@ -38,7 +38,7 @@ def scan_features(reflectance, range_m, valid, *, range_weight, sigma=1.0, sprea
     ----------
     reflectance : (H, W) float32
     range_m : (H, W) float64
-        Metres.
+        Meters.
     valid : (H, W) bool
     range_weight : float
         How much a range edge counts beside a reflectance edge.

@@ -23,7 +23,7 @@ _AS_PUBLISHED = "matched by appearance, as published"
 
 @dataclass(frozen=True, eq=False)
 class PhotoMatch:
-    """What became of one photo on one scan.
+    """The result for one photo on one scan.
 
     Parameters
     ----------
@@ -37,11 +37,11 @@ class PhotoMatch:
     note : str
         One line for a person.
     evidence : float
-        What speaks for the best camera there is, as a share of what is needed: below 1 it is not verified, unless pairs
-        picked by hand place it.
+        Evidence for the best camera found, as a share of what is needed: below 1 it is not verified, unless pairs
+        picked by hand give it.
     tested : bool
-        False where nothing can be told, neither that the photo shows the scan nor that it does not: the scan is too
-        coarse, or the photo is of one tone. The note says which.
+        False where it cannot be decided whether the photo shows the scan: the scan is too coarse, or the photo is of
+        one tone. The note says which.
     """
 
     name: str
@@ -55,7 +55,7 @@ class PhotoMatch:
 
 @dataclass(frozen=True, eq=False)
 class Matching:
-    """Seeds of one scan, and what became of each photo.
+    """Seeds of one scan, and the result for each photo.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def match_seeds(
     progress: Progress | None = None,
     cancelled: IsCancelled | None = None,
 ) -> Seeds:
-    """Find seeds in photos; see `match_photos`, which tells more.
+    """Find seeds in photos; see `match_photos`, which returns more.
 
     Returns
     -------
@@ -120,18 +120,18 @@ def match_photos(
         Not calibrated, from wherever they were taken. Arrays without a name are called "photo 1", "photo 2" ...
     settings : Settings, optional
         ``matching="verified"``: each photo's camera is estimated and accepted only if it passes a test; an accepted
-        photo gives a seed in every superpixel that it really shows, and by likeness in others as far as that is sure.
+        photo gives a seed in every superpixel that it really shows, and others by similarity where that is reliable.
         Without an accepted photo there are no seeds, unless ``guess`` asks for guesses.
         ``matching="paper"``: as published, by the most similar superpixel.
     hand : Seeds, optional
         Seeds picked by a person: they stay as they are, and four or more with a point of a photo give its camera.
     kept : Seeds, optional
         Seeds that stay as they are, reason and confidence included, found earlier for example; no seed is found on
-        their pixels. They say nothing about a photo's camera.
+        their pixels. They are not used to find a photo's camera.
     progress : callable, optional
         Called as ``progress(fraction, text)`` with a fraction of 0 to 1.
     cancelled : callable, optional
-        Asked now and then; when it returns True, the work ends.
+        Called now and then; when it returns True, the work ends.
 
     Returns
     -------
@@ -249,7 +249,7 @@ def match_site(
 
 
 def joined(*groups):
-    """Return all seeds of several `Seeds` (or None), but on each pixel only those of the first that has one there."""
+    """Return all seeds of several `Seeds` (or None); on a pixel that several have, only the first one's."""
     groups = [group for group in groups if group is not None]
     taken, chosen = set(), []
     for group in groups:

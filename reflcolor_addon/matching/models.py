@@ -1,14 +1,14 @@
 """How a pixel of the scan falls into a photo: a camera for the scan's points, or a homography of the scan's grid.
 
-Both have the same face: ``project`` for many sites, ``projections`` of many candidates at once, ``moved`` to one.
-A candidate is a row of unitless numbers, each of a size that moves the picture by about a fiftieth.
+Both have the same methods: ``project`` for many sites, ``projections`` of many candidates at once, ``moved`` to one.
+A candidate is a row of unitless numbers, scaled so that 1 moves the picture by about a fiftieth of its size.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-# Beyond this radius (in focal lengths, squared) the distortion polynomial is not followed any more.
+# Beyond this radius (in focal lengths, squared) the distortion polynomial is not used.
 _WIDEST_SQUARED = 4.0
 
 
@@ -21,7 +21,7 @@ class Camera:
     rotation : (3, 3) float64
         Scanner frame to camera frame (x right, y down, z forward).
     center : (3,) float64
-        Metres, scanner frame.
+        Meters, scanner frame.
     focal_px : float
     distortion : float
         A point at radius r (in focal lengths) is seen at r (1 + distortion r^2).
@@ -58,7 +58,7 @@ class Camera:
         return scan_image.turns
 
     def project(self, points):
-        """Return (..., 2) pixels from the photo's top left corner, NaN behind the camera, and (...) depth in metres."""
+        """Return (..., 2) pixels from the photo's top left corner, NaN behind the camera, and (...) depth in meters."""
         right, down, depth = np.moveaxis((points - self.center) @ self.rotation.T, -1, 0)
         ahead = np.where(depth > 1e-6, depth, np.nan)
         x, y = right / ahead, down / ahead
@@ -66,7 +66,7 @@ class Camera:
         return np.stack([x * gain + self.width / 2, y * gain + self.height / 2], axis=-1), depth
 
     def jacobian(self, points, turns):
-        """Return (..., 2, 2), [x or y, step]: what two steps, (2, ..., 3) metres, move a point in the photo."""
+        """Return (..., 2, 2), [x or y, step]: what two steps, (2, ..., 3) meters, move a point in the photo."""
         right, down, depth = np.moveaxis((points - self.center) @ self.rotation.T, -1, 0)
         ahead = np.where(depth > 1e-6, depth, np.nan)
         x, y = right / ahead, down / ahead
@@ -83,7 +83,7 @@ class Camera:
         return moved
 
     def projections(self, candidates, points, scale):
-        """Return (K, N, 2): where K candidates see N points; ``scale`` is the metres of a unit shift."""
+        """Return (K, N, 2): where K candidates see N points; ``scale`` is the meters of a unit shift."""
         change = self._change(candidates, scale)
         rotation = _rotations(change[:, :3]) @ self.rotation
         local = np.einsum("kij,knj->kni", rotation, points[None] - (self.center + change[:, 3:6])[:, None])

@@ -20,7 +20,7 @@ def opened_photos(photos, warnings=None):
 
     The path of an E57 stands for all photos inside.
 
-    ``warnings``, a list, gets what a person should know of a file.
+    ``warnings``, a list, gets the warnings about a file.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def _photos(given, number, names, warnings):
 
 
 def names_of_files(paths):
-    """Return what photos are called: the name of the file, and where several have it, as many folders as it takes.
+    """Return the names of photos: that of the file, where several share it with enough folders to tell them apart.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ class PhotoImage:
 
     @cached_property
     def gray(self):
-        """(h, w) float32, at most 2048 pixels a side: no scan has more detail, and time goes with the pixels."""
+        """(h, w) float32, at most 2048 pixels a side: no scan has more detail, and time grows with pixels."""
         import cv2
 
         return cv2.cvtColor(_sized(self.rgb, min(1.0, _SIDES[0] / max(self.rgb.shape[:2]))), cv2.COLOR_RGB2GRAY).astype(
@@ -72,7 +72,7 @@ class PhotoImage:
         return image, max(self.width, self.height) / side
 
     def once(self, key, make):
-        """Return what ``make`` made when this was first asked for."""
+        """Return what ``make`` returned the first time."""
         if key not in self._made:
             self._made[key] = make()
         return self._made[key]
@@ -130,7 +130,7 @@ def visible(model, valid, xy, depth, tolerance=0.04, panes=None):
     tolerance : float
         What lies farther than the nearest in the same place by more than this share is hidden.
     panes : (K, 3) float64, optional
-        Points that hide what is behind them, too, metres, scanner frame.
+        Points that hide what is behind them, too, meters, scanner frame.
     """
     inside = valid & (depth > 0) & within(model, xy)
     if model.kind == "homography" or not inside.any():

@@ -26,7 +26,7 @@ def toned(scan, tone):
     scan : Scan
     tone : {"ranks", "percentiles"}
         "ranks": every gray value occurs equally often, so that neither the unit (linear, logarithmic) nor a few
-        bright things matter; "percentiles": as the colorization has it, which keeps noise in flat parts low.
+        bright things matter; "percentiles": as the colorization uses it, which keeps noise in flat parts low.
     """
     if tone == "percentiles":
         return normalize(scan.reflectance, scan.valid)[0]
@@ -39,11 +39,11 @@ def toned(scan, tone):
 
 
 def pixel_steps(scan):
-    """Return the (vertical, horizontal) step in degrees, made up where the points do not tell."""
+    """Return the (vertical, horizontal) step in degrees, assumed where the points do not show it."""
     vertical, horizontal = (step if np.isfinite(step) and step > 0 else None for step in scan.step_deg)
     known = vertical or horizontal or 0.1
     vertical, horizontal = vertical or known, horizontal or known
-    # A ratio beyond any scanner comes from points that are no panorama: take the pixels as square.
+    # A ratio that no scanner has comes from points that are no panorama: take the pixels as square.
     if not 1 / 20 < vertical / horizontal < 20:
         return known, known
     return vertical, horizontal
@@ -173,7 +173,7 @@ class ScanImage:
 
     @cached_property
     def surface(self):
-        """(h, w, 3) float64, metres: where each pixel's surface is; without a return as far as what is around it."""
+        """(h, w, 3) float64, meters: where each pixel's surface is; without a return as far as what is around it."""
         logarithm = filled(np.log(np.maximum(self.range, 1e-6)), self.valid)
         distance = np.where(self.valid, self.range, np.exp(logarithm))
         surface = self.directions * distance[..., None]
@@ -181,7 +181,7 @@ class ScanImage:
 
     @cached_property
     def turns(self):
-        """(2, h, w, 3) float64, metres: what the next pixel to the right, and down, adds to a surface seen squarely.
+        """(2, h, w, 3) float64, meters: what the next pixel to the right, and down, adds to a surface seen squarely.
 
         Of the grid as a whole: neither a hole nor a jump of the range shows in it, but for the distance.
         """
@@ -195,7 +195,7 @@ class ScanImage:
 
     @cached_property
     def panes(self):
-        """(K, 3) float64, metres: the surface in holes that it surrounds.
+        """(K, 3) float64, meters: the surface in holes that it surrounds.
 
         Glass gives no return, but it is no opening: a photo shows the glass, not what lies behind it.
         """

@@ -21,13 +21,13 @@ from .transfer.surface import GridSurface
 from .transfer.views import seen_by
 
 _STEPS_PER_PHOTO = 40
-# A photo that shows fewer pixels of a scan than this shows nothing of it.
+# A photo that shows fewer pixels of a scan than this counts as showing none of it.
 _LEAST_SEEN = 100
 
 
 @dataclass(eq=False)
 class _OnScan:
-    """One scan with what was found out about it."""
+    """One scan and what was found for it."""
 
     scan: object
     views: ScanViews
@@ -69,7 +69,7 @@ def verified(scans, photos, hand, settings, step, registered=None):
     ]
     step(0.93, Message("Learning the materials"))
     looks = [described(place.image, place.superpixels.labels, len(place.superpixels)) for place in places]
-    appearance = _learnt(places, seen, looks)
+    appearance = _learned(places, seen, looks)
     for place, own, colors, look in zip(places, seen, observed, looks, strict=True):
         seeds = _with_unseen(place, own, look, appearance, photos, settings, step)
         yield seeds, place.locations, colors, place.warnings
@@ -85,7 +85,7 @@ def _observed(places, photos, step):
     observed = []
     for place in places:
         step(0.9, Message("{scan}: blending photos", scan=place.scan.name))
-        # What a scan's photos show takes much memory, and is not needed any more.
+        # The views of a scan's photos take much memory and are not needed any more.
         observed.append(fused(views.pop(0), photo_gains, place.surface))
     return shared([place.surface for place in places], observed)
 
@@ -130,7 +130,7 @@ def _counted(step, begin, share, scans):
     return counted
 
 
-def _learnt(places, seen, looks):
+def _learned(places, seen, looks):
     """The `Appearance` of what was seen on all scans; None where nothing was."""
     known = [(place, own, look) for place, own, look in zip(places, seen, looks, strict=True) if own is not None]
     if not known:
@@ -139,11 +139,11 @@ def _learnt(places, seen, looks):
     rgb = np.concatenate([own.seeds.rgb for _, own, _ in known])
     # Scans lie apart.
     places = [np.column_stack([own.seeds.cols, own.seeds.rows]) + 1e6 * k for k, (_, own, _) in enumerate(known)]
-    return Appearance.learnt(descriptors, rgb, np.concatenate(places))
+    return Appearance.learned(descriptors, rgb, np.concatenate(places))
 
 
 def _with_unseen(place, seen, look, appearance, photos, settings, step):
-    """Seeds of a scan: where it was seen, and by likeness elsewhere as far as that is sure."""
+    """Seeds of a scan: where it was seen, and by similarity elsewhere as far as that is reliable."""
     if seen is None and appearance is None:
         return _unverified(place, photos, settings, step)
     count = len(place.superpixels)

@@ -1,1 +1,1 @@
-"""Matching as the paper has it: superpixels and HOG."""
+"""Matching as published: superpixels and HOG."""

@@ -1,4 +1,4 @@
-"""Seeds from photos as the paper has them: by the likeness of superpixels."""
+"""Seeds from photos as published: by the similarity of superpixels."""
 
 import numpy as np
 

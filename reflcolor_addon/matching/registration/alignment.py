@@ -1,4 +1,4 @@
-"""An accepted model fitted once more, at the scan's own detail.
+"""Fits an accepted model once more, at the scan's full resolution.
 
 A model is found and judged on images much coarser than a large scan, and is off by about one of their pixels. Colors at
 every pixel of the scan show that as ghosts beside every edge.

@@ -15,7 +15,7 @@ VARIANTS = ("gradient", "contrast", "inverted")
 
 
 class ScanPoints:
-    """The local features of a scan's image, made when first asked for: they are the same for all photos.
+    """The local features of a scan's image, computed once, on first use: they are the same for all photos.
 
     Parameters
     ----------

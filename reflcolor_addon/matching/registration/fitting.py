@@ -9,7 +9,7 @@ from .refinement import fitted, tightened
 from .tiles import surfaces
 from .verification import NO_EVIDENCE, RADIUS, TILE, evidence, judged
 
-# Of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
+# As shares of the search's step: the pixels of the scan's images on the three levels, with the tile's size.
 COARSE, MIDDLE, FINE = (1.3, 24), (0.8, 32), (0.5, TILE)
 # How far aside a camera is tried, in the median distance of what the scan sees; how much stronger it must be there; and
 # how often it may move on.

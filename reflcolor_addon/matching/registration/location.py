@@ -1,7 +1,7 @@
 """Where one photo was taken, on all scans of a site: from pairs picked by hand, from another scan, or from nothing.
 
 A photo has one camera. Where scans have poses of their own, the surest camera counts on all of them: another scan
-confirms it, or shows nothing of the photo, or must be beyond doubt by itself to contradict it.
+confirms it, or shows nothing of the photo, or contradicts it only if its own camera is beyond doubt.
 """
 
 from dataclasses import dataclass, replace
@@ -15,7 +15,7 @@ from .pairs import LEAST_PAIRS, camera_from_pairs
 from .refinement import HandPairs
 from .registration import Registration, confirmed, register
 
-# Nobody clicks better, as a share of the photo's longer side.
+# The accuracy of a careful click, as a share of the photo's longer side.
 _SUREST_CLICK = 0.001
 # How many tiles lie over each other, of those that say something; and a power: where pixels are drawn out, the tiles'
 # errors do not average out, because an edge is known to a pixel of the grid only.
@@ -24,7 +24,7 @@ _OVERLAP, _TOGETHER = 3.0, 1.5
 
 @dataclass(frozen=True, eq=False)
 class Location:
-    """What became of one photo on one scan.
+    """The result for one photo on one scan.
 
     registration : Registration
     verified : bool
@@ -33,7 +33,7 @@ class Location:
     note : Message
         One line for a person.
     warnings : tuple of str
-        What a person should do something about.
+        What a person should act on.
     """
 
     registration: Registration
@@ -44,12 +44,12 @@ class Location:
 
     @property
     def tested(self):
-        """Whether it was possible to tell that the photo shows the scan, or that it does not."""
+        """Whether it could be decided if the photo shows the scan."""
         return self.verified or self.registration.untestable is None
 
     @property
     def beyond_doubt(self):
-        """Whether it need not give way to what another scan says."""
+        """Whether it stands even where another scan says otherwise."""
         return self.verified and (self.by_hand or self.registration.beyond_doubt)
 
     @property

@@ -21,7 +21,7 @@ def camera_from_pairs(points, xy, photo):
     Parameters
     ----------
     points : (N, 3) float64
-        Metres, scanner frame.
+        Meters, scanner frame.
     xy : (N, 2) float64
         Pixels from the photo's top left corner.
     photo : PhotoImage

@@ -27,7 +27,7 @@ class HandPairs:
     """Pairs picked by hand, which hold a camera beside the tiles.
 
     points : (K, 3) float64
-        Metres, scanner frame.
+        Meters, scanner frame.
     xy : (K, 2) float64
         Pixels from the photo's top left corner.
     sigma : float

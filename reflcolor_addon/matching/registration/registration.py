@@ -1,4 +1,4 @@
-"""Finding the model of one photo: candidates from features and from the search, refined, and judged."""
+"""Finds the model of one photo: candidates from features and from the search, refined, then tested."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -37,7 +37,7 @@ _TRIED = 5
 _ROUNDS, _PROMISING, _WORTH = 2, 0.2, 1.05
 # A guess is refined with all there is only if its tiles tell something, a second only if it is nearly as good.
 _TELLING, _NEARLY = 1.0, 0.6
-# Of a homography whose tiles are in place no oftener than by chance nothing is hoped for.
+# A homography whose tiles are in place no more often than by chance is dropped.
 _LEAST_DEVIATIONS = 1.5
 _LEAST_CONTRAST = 8
 # A refined camera fits picked pairs as long as it is no farther off at them than by this factor.
@@ -50,7 +50,7 @@ class Registration:
     """A photo's model, the evidence for it, and where it came from.
 
     untestable : str or None
-        Why nothing can be told of the photo, neither that it shows the scan nor that it does not.
+        Why it cannot be decided whether the photo shows the scan.
     """
 
     model: object
@@ -69,23 +69,23 @@ class Registration:
         return self.accepted and self.evidence.rank >= _CONVINCING
 
     def beyond_chance(self, views, photo):
-        """Return it with what is needed to stand out from chance, which is tried only where it counts."""
+        """Return it with the strength that it needs to stand out from chance, computed only where that decides."""
         if not self.accepted:
             return self
         return replace(self, evidence=beyond_chance(self.evidence, views.image(FINE[0]), photo, self.model))
 
     def better_than(self, other):
-        """Whether more speaks for it than for another one."""
+        """Whether there is more evidence for it than for another one."""
         return self.model is not None and (other.model is None or self.evidence.rank > other.evidence.rank)
 
     @classmethod
     def nothing(cls, found_by="nothing", untestable=None):
-        """What there is before anything was found."""
+        """The registration before anything was found."""
         return cls(None, NO_EVIDENCE, found_by, untestable)
 
 
 class ScanViews:
-    """Everything of a scan that registering any photo needs, made when first asked for."""
+    """Everything about a scan that registering a photo needs, computed once, on first use."""
 
     def __init__(self, scan):
         self.scan = scan
@@ -138,7 +138,7 @@ class ScanViews:
         return self.once(("tiles", share, size), lambda: Tiles.of(self.image(share), size))
 
     def once(self, key, make):
-        """Return what ``make()`` made when the key was first asked for."""
+        """Return what ``make()`` returned the first time for this key."""
         if key not in self._made:
             self._made[key] = make()
         return self._made[key]
@@ -196,7 +196,7 @@ def register(views, photo, *, step=lambda text: None):
 def confirmed(views, photo, model, pairs=None):
     """Return the `Registration` of a model that is known roughly, refined and judged.
 
-    Nothing was searched, so that hardly a wrong model can stand out by chance: the least evidence will do. With
+    Nothing was searched, so a wrong model hardly ever stands out by chance, and the least evidence is enough. With
     `HandPairs` only a camera that still fits them is taken.
     """
     rng = np.random.default_rng(0)

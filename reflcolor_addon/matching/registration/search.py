@@ -34,13 +34,13 @@ def map_step(scan):
 
 
 def viewing_distance(scan):
-    """Return the median horizontal distance of what a scan sees, in metres."""
+    """Return the median horizontal distance of what a scan sees, in meters."""
     points = scan.points[scan.valid]
     return float(np.median(np.hypot(points[:, 0], points[:, 1])))
 
 
 def viewpoints(scan):
-    """Return (x, y, z) places a photo may have been taken from beside the scanner's own, in metres, scanner frame.
+    """Return (x, y, z) places a photo may have been taken from beside the scanner's own, in meters, scanner frame.
 
     Around what a scan sees, up to 56 degrees to either side, nearer and farther; around the scanner, if that sees all
     around.

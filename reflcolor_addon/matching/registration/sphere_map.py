@@ -46,7 +46,7 @@ class SphereMap:
     Parameters
     ----------
     points : (N, 3) float64
-        Metres, scanner frame.
+        Meters, scanner frame.
     tone : (N,) float32
         Their reflectance, see `scan_image.toned`.
     center : (3,) float

@@ -1,4 +1,4 @@
-"""Registrations as JSON, so that what was found out about a photo need not be found out again."""
+"""Registrations as JSON, so that a photo need not be registered again."""
 
 import math
 from dataclasses import asdict, fields
@@ -11,7 +11,7 @@ from .verification import Evidence
 
 
 def as_document(registration):
-    """Return a `Registration` as what JSON can hold."""
+    """Return a `Registration` as values that JSON can hold."""
     return {
         "model": None if registration.model is None else model_document(registration.model),
         "evidence": asdict(registration.evidence),
@@ -26,7 +26,7 @@ def from_document(document):
     Raises
     ------
     ValueError
-        If the document is none that `as_document` made.
+        If `as_document` did not make the document.
     """
     try:
         model = None if document["model"] is None else model_of(document["model"])
@@ -40,7 +40,7 @@ def from_document(document):
 
 
 def model_document(model):
-    """Return a Camera or GridHomography as what JSON can hold."""
+    """Return a Camera or GridHomography as values that JSON can hold."""
     values = {field.name: getattr(model, field.name) for field in fields(model)}
     return {"kind": model.kind} | {
         name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()
@@ -48,7 +48,7 @@ def model_document(model):
 
 
 def model_of(document):
-    """Return the model that `model_document` described; raises KeyError, TypeError or ValueError where it is none."""
+    """Return the model that `model_document` described; raises KeyError, TypeError or ValueError if it did not."""
     values = {name: value for name, value in document.items() if name != "kind"}
     of_kind = {Camera.kind: Camera, GridHomography.kind: GridHomography}[document["kind"]]
     return of_kind(**{name: _value(value) for name, value in values.items()})

@@ -59,7 +59,7 @@ class Surfaces:
     middles : (N, 2)
         Rows and columns of the tiles in the scan's image.
     scale : float
-        Metres of a unit shift of a camera: the median distance of the tiles.
+        Meters of a unit shift of a camera: the median distance of the tiles.
     """
 
     scores: np.ndarray

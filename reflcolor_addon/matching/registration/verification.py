@@ -1,12 +1,12 @@
-"""A test that a wrong model fails: do the tiles of the scan, each sought by itself, lie where the model puts them?
+"""A test that a wrong model fails: are the scan's tiles, each searched for by itself, found where the model puts them?
 
-Under a wrong model a tile's best place is anywhere in its window, so that few lie in the middle by chance. The share of
+Under a wrong model a tile's best place is anywhere in its window, so few lie in the middle, by chance. The share of
 tiles in the middle, in deviations of what chance gives, is the evidence. But one long edge, a skyline or an eave, puts
-all tiles along it in place at once: so the tiles that have but one best place must say the same by themselves.
+all tiles along it in place at once: so the tiles that have only one best place must pass the test by themselves, too.
 
-What chance gives is not the same everywhere: where a scan or a photo repeats itself, where tiles are few or drawn out,
-a wrong model does better. So it is tried: parts of the photo are exchanged, which makes every model wrong, and the
-model must stand out by far from what is found then (`by_chance`). The rates of right and of wrong photos are measured
+What chance gives is not the same everywhere: where a scan or a photo repeats itself, where tiles are few or stretched,
+a wrong model does better. So it is measured: parts of the photo are exchanged, which makes every model wrong, and the
+model must stand out clearly from what is found then (`by_chance`). The rates of right and of wrong photos are measured
 by ``python -m benchmarks.trust``.
 """
 
@@ -64,7 +64,7 @@ _ACCEPTED_SPREAD = 0.33
 
 @dataclass(frozen=True)
 class Evidence:
-    """What speaks for a model.
+    """The evidence for a model.
 
     deviations : float
         How far the number of tiles in place exceeds chance, in standard deviations.
@@ -97,13 +97,13 @@ class Evidence:
 
     @property
     def share(self):
-        """How much there is of what is needed, of what there is least of: strength, mean, tiles in place, spread."""
+        """The evidence as a share of what is needed: the smallest of strength, mean, tiles in place and spread."""
         enough = self.mean / _ACCEPTED_MEAN, self.in_place / self.needed_tiles, self.spread / _ACCEPTED_SPREAD
         return max(min(self.rank, *enough), 0.0)
 
     @property
     def strength(self):
-        """Deviations times mean score: right models have both."""
+        """Deviations times mean score: right models are high in both."""
         return max(self.deviations, 0.0) * max(self.mean, 0.0)
 
     @property
@@ -147,12 +147,12 @@ def evidence(scan_image, photo, model):
 
 
 def known_before(proof):
-    """Return `Evidence` that need be but what a model without any freedom needs: nothing was searched for it."""
+    """Return the `Evidence` with the need of a model without any freedom: nothing was searched for it."""
     return replace(proof, needed=_NEEDED_AT_SCANNER, needed_tiles=LEAST_PARTS)
 
 
 def beyond_chance(proof, scan_image, photo, model):
-    """Return `Evidence` that need be so much more than what is found for a photo whose parts are exchanged."""
+    """Return the `Evidence` with a need that exceeds what is found for a photo whose parts are exchanged."""
     sighting = Sighting.of(scan_image, photo, model)
     if sighting is None:
         return proof
@@ -208,7 +208,7 @@ def by_chance(scan_image, sighting, model, exchanged=_EXCHANGED):
     """Return the strengths (K,) that a model has for photos that cannot be right: parts of its own, exchanged.
 
     The photo's edges are moved far away, and mirrored, under the scan; then the model is fitted to them as it was to
-    the photo. So all that helps a wrong model is in it: what repeats, long edges, few and drawn out tiles, freedom.
+    the photo. So it includes all that helps a wrong model: repetition, long edges, few or stretched tiles, freedom.
     """
     strengths, rng = [], np.random.default_rng(0)
     height, width = sighting.seen.shape

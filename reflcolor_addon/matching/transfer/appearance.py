@@ -1,4 +1,4 @@
-"""Colors for what no photo saw, learnt from what was seen: the same material has the same reflectance and texture.
+"""Colors for what no photo saw, learned from what was seen: the same material has the same reflectance and texture.
 
 How far that can be trusted is measured, not assumed: parts of what was seen are held out, contiguous ones as the unseen
 are, and predicted from the rest. Where the prediction does not prove better than the mean color by a margin, there is
@@ -17,7 +17,7 @@ _LEAST_SEEN = 30
 LEAST_CONFIDENCE = 0.2
 """The share of the mean color's error by which a guess must be better, with what chance may do taken off."""
 _BINS = 4
-# Standard errors, from held out part to part, that are taken off what the guesses gained.
+# Standard errors, from held out part to part, that are subtracted from what the guesses gained.
 _DOUBT = 1.5
 
 
@@ -55,7 +55,7 @@ def described(image, labels, count):
 
 @dataclass(frozen=True, eq=False)
 class Appearance:
-    """Colors learnt from seen segments."""
+    """Colors learned from seen segments."""
 
     descriptors: np.ndarray
     chrominance: np.ndarray
@@ -65,7 +65,7 @@ class Appearance:
     skill: np.ndarray
 
     @classmethod
-    def learnt(cls, descriptors, rgb, places):
+    def learned(cls, descriptors, rgb, places):
         """Learn from segments of known color.
 
         Parameters
@@ -96,7 +96,7 @@ class Appearance:
                 baseline = np.linalg.norm(chrominance[rest].mean(axis=0) - chrominance[held], axis=1)
                 held_out.append((doubt, error, baseline))
         limits = np.quantile(np.concatenate([doubt for doubt, _, _ in held_out]), np.linspace(0, 1, _BINS + 1)[1:])
-        # Beyond the doubt that was met there is no trust; and more doubt is never more trust.
+        # Beyond the largest doubt that was measured there is no trust; and more doubt never means more trust.
         skill = np.minimum.accumulate([*(_skill(held_out, limits, number) for number in range(_BINS)), 0.0])
         return cls(descriptors, chrominance, rgb, scale, limits, skill)
 
@@ -123,7 +123,7 @@ def _skill(held_out, limits, number):
 
 
 def _nearest(wanted, known, chrominance):
-    """Mean chrominance of the nearest known ones, which they are, and how doubtful: far, or not of one opinion."""
+    """Mean chrominance of the nearest known ones, which they are, and how doubtful: far, or contradictory."""
     near = np.empty((len(wanted), min(_NEIGHBORS, len(known))), int)
     distance = np.empty(near.shape)
     squares = (known**2).sum(axis=1)

@@ -1,8 +1,8 @@
 """Seeds where no photo could be verified: by appearance and in spatial agreement, else the photo's mean color.
 
-A single most similar superpixel is wrong more often than not, and a scan colored so looks worse than one in the photo's
-mean color. But where neighbors in the scan find neighbors in the photo, in the same arrangement, that is no chance.
-So a seed moves from the mean color towards its match only as far as its neighbors agree with it.
+A single most similar superpixel is wrong more often than not, and a scan colored this way looks worse than one in the
+photo's mean color. But where neighbors in the scan find neighbors in the photo, in the same arrangement, it is no
+chance. So a seed moves from the mean color toward its match only as far as its neighbors agree with it.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from ...srgb import linear_to_srgb8, srgb8_to_linear
 
 _NEIGHBORS = 12
 _AGREEING = 0.06
-# What share of neighbors agrees by chance, and from which share on a match is taken wholly.
+# What share of neighbors agrees by chance, and from which share on a match is taken in full.
 _BY_CHANCE, _CERTAIN = 0.35, 0.85
 
 
@@ -44,7 +44,7 @@ def agreement(scan_xy, matched_xy, photo):
 
 
 def cautious_colors(matches, scan_xy, mean):
-    """Return (S, 3) uint8 colors and (S,) confidence for `HogMatches`, none further from the mean than is agreed on."""
+    """Return (S, 3) uint8 colors and (S,) confidence for `HogMatches`, as far from the mean as neighbors support."""
     certain = agreement(scan_xy, matches.xy, matches.photo)
     light = srgb8_to_linear(matches.rgb) * certain[:, None] + srgb8_to_linear(mean) * (1 - certain[:, None])
     return linear_to_srgb8(light), certain * matches.similarity

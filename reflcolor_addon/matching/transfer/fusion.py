@@ -1,4 +1,4 @@
-"""The photos of one scan made one: a color for every pixel that any of them saw.
+"""Blends the photos of one scan: a color for every pixel that any of them saw.
 
 The photo that saw a pixel best gives its detail. What photos still differ by after their exposures were reconciled
 changes slowly (the light at another hour, a lens that darkens its corners): it is blended over where they overlap, so
@@ -17,7 +17,7 @@ from .rims import ghosts
 
 # Shares of the grid's longer side: over which a photo comes in from its border, and over which differences are blended.
 _FEATHER, _BLEND = 0.03, 0.03
-# What a doubtful pixel of one photo counts beside a sure one of another.
+# The weight of a doubtful pixel of one photo beside a sure one of another.
 _DOUBTFUL = 0.01
 # Levels: two photos that differ by more show different things.
 _LARGEST_DIFFERENCE = 40.0

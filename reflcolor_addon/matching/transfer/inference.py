@@ -1,4 +1,4 @@
-"""The color that a place of a scan should have, from places whose color is sure: to hold against what photos show."""
+"""The color that a place of a scan should have, from places whose color is sure: to compare with what photos show."""
 
 from dataclasses import replace
 from functools import cached_property

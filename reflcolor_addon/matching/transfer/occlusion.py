@@ -22,7 +22,7 @@ class DepthBuffer:
     Parameters
     ----------
     nearest : (rows, columns) float32
-        Metres along the camera's axis; very large where there is none.
+        Meters along the camera's axis; very large where there is none.
     cell : float
         Side of a cell in pixels of the photo.
     """
@@ -64,7 +64,7 @@ class DepthBuffer:
 
     @classmethod
     def of_quads(cls, model, groups):
-        """Fill quads given by their corners: arrays (K, 4, 3), metres, in the order of a grid's rows."""
+        """Fill quads given by their corners: arrays (K, 4, 3), meters, in the order of a grid's rows."""
         buffer = cls.empty(model)
         for corners in groups:
             for start in range(0, len(corners), _CHUNK_VALUES // 4):
@@ -81,7 +81,7 @@ class DepthBuffer:
         return (right >= 0) & (left < columns) & (bottom >= 0) & (top < rows)
 
     def _fill(self, x, y, depth):
-        """Fill quads: (N, 4) pixels of the photo, and metres."""
+        """Fill quads: (N, 4) pixels of the photo, and meters."""
         x, y, inverse = x / np.float32(self.cell), y / np.float32(self.cell), 1 / depth
         (left, right), (top, bottom) = _ends(x.T), _ends(y.T)
         side = np.maximum(right - left, bottom - top)
@@ -115,7 +115,7 @@ class DepthBuffer:
     def sees(self, xy, depth, slope):
         """Return (N,) bool: whether nothing hides (N, 2) places at (N,) depths.
 
-        ``slope`` (N,): by how much the depth of the surface there changes over a cell, metres.
+        ``slope`` (N,): by how much the depth of the surface there changes over a cell, meters.
         """
         return depth <= self.nearest[self.at(xy)] * (1 + _TOLERANCE) + slope
 

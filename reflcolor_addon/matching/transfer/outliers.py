@@ -1,7 +1,7 @@
 """What one photo shows and the others do not: people, cars, highlights, shadows that moved.
 
-Where three or more photos see a place, most of them tell. Where they stand one against one, the color that is inferred
-there from all the places that are not disputed tells, for each region as a whole.
+Where three or more photos see a place, the majority decides. Where they stand one against one, the color that is
+inferred there from all the places that are not disputed decides, for each region as a whole.
 """
 
 import numpy as np
@@ -56,7 +56,7 @@ def outliers(colors, usable, reduced, inference):
     against = np.zeros(votes.shape, bool)
     for (one, other), mask in apart.items():
         against[other] |= mask & (best == one)
-    # As many for what differs as for the best: they do not tell.
+    # As many for what differs as for the best: no majority.
     disputed = (against & (votes == most)).any(axis=0)
     left_out = against & ~disputed
     disputed = _opened(disputed)
@@ -67,7 +67,7 @@ def outliers(colors, usable, reduced, inference):
         excluded = _widened(_opened(left_out[place]))
         if excluded.any():
             result[number] = reduced.whole_nearest(excluded) & usable[number]
-    # What everyone is left out of would have no color at all.
+    # A place where every photo is left out would have no color at all.
     if result:
         none = np.logical_and.reduce([result.get(n, np.zeros_like(usable[n])) | ~usable[n] for n in numbers])
         result = {number: mask & ~none for number, mask in result.items()}
@@ -75,7 +75,7 @@ def outliers(colors, usable, reduced, inference):
 
 
 def _judged(disputed, lab, seen, apart, best, inference):
-    """(P, h, w) bool: who is left out of disputed regions, because the inferred color is nearer to another's."""
+    """(P, h, w) bool: which photo is left out of disputed regions, where the inferred color is nearer to another's."""
     import cv2
 
     known = np.logical_or.reduce(seen) & ~disputed

@@ -1,4 +1,4 @@
-"""Colors of other things, that a photo shows where it was taken for showing the scan's surface.
+"""Colors of other things, where a photo seemed to show the scan's surface.
 
 Beside an outline a camera that is slightly off shows another thing, a ghost of it on this one; and what the scanner
 never saw may stand in the way. What a photo shows at such places is kept where it agrees with what it shows farther in
@@ -19,7 +19,7 @@ _LEAST_SHARE = 0.5
 
 
 def ghosts(rgb, sure, doubtful, scan, reduced, inference):
-    """Return (H, W) bool: doubtful pixels of a color that nothing speaks for.
+    """Return (H, W) bool: doubtful pixels of a color that nothing supports.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ def seen_seeds(scan, observed, image, superpixels, locations, photos):
     share = usable.astype(np.float32)
     sums = cv2.blur(observed.rgb[chosen].astype(np.float32) * share[..., None], (_PATCH, _PATCH))
     rgb = sums / np.maximum(cv2.blur(share, (_PATCH, _PATCH)), 1e-6)[..., None]
-    # A border between superpixels is as bad a place as the border of what was seen.
+    # A seed at a border between superpixels is as unreliable as one at the border of what was seen.
     inner = usable.copy()
     inner[:, 1:] &= labels[:, 1:] == labels[:, :-1]
     inner[1:] &= labels[1:] == labels[:-1]
@@ -79,7 +79,7 @@ def seen_seeds(scan, observed, image, superpixels, locations, photos):
 
 
 def _trust(registration):
-    """How sure a registration is: 0.75 if just accepted or resting on pairs alone, 1 if beyond doubt."""
+    """How reliable a registration is: 0.75 if just accepted or resting on pairs alone, 1 if beyond doubt."""
     if registration.model is None or not registration.accepted:
         return 0.75
     return float(np.clip(0.75 + 0.25 * (registration.evidence.rank - 1) / 4, 0.75, 1.0))

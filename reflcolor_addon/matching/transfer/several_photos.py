@@ -42,7 +42,7 @@ def gains(views):
     if not rows:
         return np.ones((count, 3))
     weights = np.array(weights)[:, None] / max(weights)
-    # A weak wish to stay as it is settles what only differences are known of.
+    # A weak pull toward the original exposure settles what the differences leave open.
     system = np.vstack([np.array(rows) * weights, np.eye(count) * _KEEP])
     wanted = np.vstack([np.array(values) * weights, np.zeros((count, 3))])
     logarithm = np.linalg.lstsq(system, wanted, rcond=None)[0]

@@ -1,4 +1,4 @@
-"""What of a scan matters to every photo of it, at the scan's full grid."""
+"""The parts of a scan that every photo needs, at the scan's full resolution."""
 
 from functools import cached_property
 

@@ -122,7 +122,7 @@ class _Enlarged:
         return between[:, left] * (1 - across) + between[:, right] * across
 
     def nearest(self, image, strip):
-        """The same of the pixel that each texel lies in."""
+        """The same, from the pixel that each texel lies in."""
         return image[self._rows[3][strip][:, None], self._cols[3]]
 
     def rows_of(self, strip):

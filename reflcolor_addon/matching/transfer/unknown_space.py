@@ -30,7 +30,7 @@ _BEFORE_HOLE, _NEAR_QUANTILE = 0.95, 0.05
 
 
 class UnknownSpace:
-    """What of space a scanner did not see into.
+    """The space that a scanner did not see into.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class UnknownSpace:
         self._scan = scan
 
     def between(self, model, sight, chosen):
-        """Return which of the chosen pixels something unknown may hide from a camera: surely enough, and perhaps.
+        """Return which of the chosen pixels something unknown may hide from a camera: certainly, and perhaps.
 
         From behind a surface the way to the camera begins in unknown space, inside the surface's own thing; only what
         is farther away than that is thick counts there.
@@ -76,7 +76,7 @@ class UnknownSpace:
 
     @cached_property
     def _outlines(self):
-        """Of all places where a surface breaks off: (K, 3) directions, (K, 3) half the way along the outline, per metre
+        """Of all places where a surface breaks off: (K, 3) directions, (K, 3) half the way along the outline, per meter
         of distance; (K,) range from which on space is unknown there, to which a thing goes on, and to which it may."""
         scan = self._scan
         angles = GridAngles.of(scan)

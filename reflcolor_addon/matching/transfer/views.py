@@ -95,7 +95,7 @@ class Sight:
     xy : (H, W, 2) float32
         Pixels from the photo's top left corner.
     depth : (H, W) float32
-        Metres along the camera's axis.
+        Meters along the camera's axis.
     cosine : (H, W) float32
         Between the surface's normal, which points to the scanner, and the way to the camera: negative where that was on
         the other side. 1 for a homography.
