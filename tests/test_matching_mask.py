@@ -15,7 +15,7 @@ from reflcolor_addon.matching.registration.fitting import beside, finely
 from reflcolor_addon.matching.registration.registration import ScanViews
 from reflcolor_addon.matching.registration.tiles import Sighting, Tiles, surfaces
 from reflcolor_addon.matching.registration.verification import by_chance, evidence
-from reflcolor_addon.matching.scan_image import ScanImage, toned
+from reflcolor_addon.matching.scan_image import ScanImage, reflectance_image
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +40,7 @@ def with_holes(scan, share, seed=0):
 
 
 def image_of(scan):
-    return ScanImage(scan, toned(scan, "ranks"), 0.4)
+    return ScanImage(scan, reflectance_image(scan, "ranks"), 0.4)
 
 
 def test_the_edges_of_a_photo_are_the_same_with_holes_in_the_scan_and_without(room, camera, noise):

@@ -43,7 +43,7 @@ class PixelGraph:
         """(H, W)."""
         return self.valid.shape
 
-    def step(self, p, q):
+    def edge_cost(self, p, q):
         """Return the cost of the step between neighboring pixels, eq. 6: (beta (D_q - D_p)^2 + 1) |Y_q - Y_p|.
 
         ``p`` and ``q`` index the images; the arithmetic is float64.
@@ -71,7 +71,7 @@ class PixelGraph:
             ends.append(q[both])
             costs.append(np.full(starts[-1].size, self.step_cost * np.hypot(down, right)))
         p, q, cost = (np.concatenate(parts) for parts in (starts, ends, costs))
-        return p, q, cost + self.step(np.unravel_index(p, self.shape), np.unravel_index(q, self.shape))
+        return p, q, cost + self.edge_cost(np.unravel_index(p, self.shape), np.unravel_index(q, self.shape))
 
     @cached_property
     def matrix(self):

@@ -7,7 +7,7 @@ from ..seeds.seeds import Seeds
 from ..seeds.sources import SOURCES
 from .opened_photos import opened_photos
 from .photo_image import Photos
-from .scan_image import pixel_steps, toned
+from .scan_image import pixel_steps, reflectance_image
 from .superpixels import sized
 
 _HEIGHT = 720
@@ -75,7 +75,8 @@ def _shown(scan):
 
     vertical, horizontal = pixel_steps(scan)
     width = max(1, round(_HEIGHT * scan.shape[1] * horizontal / (scan.shape[0] * vertical)))
-    gray = cv2.resize(toned(scan, "percentiles"), (min(width, 8 * _HEIGHT), _HEIGHT), interpolation=cv2.INTER_AREA)
+    image = reflectance_image(scan, "percentiles")
+    gray = cv2.resize(image, (min(width, 8 * _HEIGHT), _HEIGHT), interpolation=cv2.INTER_AREA)
     return np.repeat(np.rint(gray).astype(np.uint8)[..., None], 3, axis=-1)
 
 

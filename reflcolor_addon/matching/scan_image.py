@@ -18,7 +18,7 @@ _SMOOTH = 0.2
 _SMALLEST_PANE, _LARGEST_PANE, _FLAT_RIM = 9, 0.05, 1.25
 
 
-def toned(scan, tone):
+def reflectance_image(scan, tone):
     """Return the reflectance as an (H, W) float32 image of 0..255.
 
     Parameters
@@ -56,7 +56,7 @@ class ScanImage:
     ----------
     scan : Scan
     tone_image : (H, W) float32
-        The reflectance, see `toned`.
+        The reflectance, see `reflectance_image`.
     step_deg : float
         Size of a pixel; never finer than the grid, or than half of it where the grid is small: there a tile would
         else be a large part of the scan, and a few tiles prove little.

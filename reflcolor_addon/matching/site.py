@@ -10,7 +10,7 @@ from .published.hog_matching import described_photo, described_scan, hog_matches
 from .registration.alignment import aligned
 from .registration.location import located
 from .registration.registration import ScanViews
-from .scan_image import toned
+from .scan_image import reflectance_image
 from .transfer.appearance import LEAST_CONFIDENCE, Appearance, described
 from .transfer.fallback import cautious_colors, mean_color
 from .transfer.fusion import fused
@@ -93,7 +93,7 @@ def _observed(places, photos, step):
 def _prepared(scan, settings, step):
     step(0.02, Message("{scan}: superpixels", scan=scan.name))
     views = ScanViews(scan)
-    image = square_image(scan, toned(scan, "percentiles"))
+    image = square_image(scan, reflectance_image(scan, "percentiles"))
     return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), GridSurface(scan), [], [])
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...messages import Message
 from ...seeds.seeds import Seeds
-from ..scan_image import toned
+from ..scan_image import reflectance_image
 from .hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 
 
@@ -25,7 +25,7 @@ def published_seeds(scan, photos, settings, step):
        Reflectivity", ICRA 2013.
     """
     step(0.05, Message("Superpixels of the scan"))
-    image = square_image(scan, toned(scan, "percentiles"))
+    image = square_image(scan, reflectance_image(scan, "percentiles"))
     own = described_scan(scan, image, scan_superpixels(scan, image, settings), settings)
     others = []
     for index, photo in enumerate(photos):

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..scan_image import ScanImage, pixel_steps, toned
+from ..scan_image import ScanImage, pixel_steps, reflectance_image
 from .refinement import fitted, tightened
 from .tiles import Tiles, surfaces
 
@@ -35,7 +35,7 @@ def aligned(scan, photo, model):
     """
     vertical, horizontal = pixel_steps(scan)
     extent = max(scan.shape[0] * vertical, scan.shape[1] * horizontal)
-    images = [ScanImage(scan, toned(scan, "ranks"), extent / longest) for longest in _LONGEST]
+    images = [ScanImage(scan, reflectance_image(scan, "ranks"), extent / longest) for longest in _LONGEST]
     if model.kind == "homography":
         model = _sought(images[0], photo, model)
     for image in images:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...messages import Message
 from ..grid_angles import closed
-from ..scan_image import ScanImage, pixel_steps, toned
+from ..scan_image import ScanImage, pixel_steps, reflectance_image
 from . import features
 from .fitting import COARSE, FINE, MIDDLE, beside, finely, refined
 from .search import Search, map_step
@@ -112,8 +112,8 @@ class ScanViews:
 
     @cached_property
     def ranks(self):
-        """The reflectance as an image, see `scan_image.toned`."""
-        return toned(self.closed, "ranks")
+        """The reflectance as an image, see `scan_image.reflectance_image`."""
+        return reflectance_image(self.closed, "ranks")
 
     @cached_property
     def described(self):

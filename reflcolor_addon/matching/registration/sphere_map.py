@@ -48,7 +48,7 @@ class SphereMap:
     points : (N, 3) float64
         Meters, scanner frame.
     tone : (N,) float32
-        Their reflectance, see `scan_image.toned`.
+        Their reflectance, see `scan_image.reflectance_image`.
     center : (3,) float
         The place.
     step_deg : float
