@@ -225,13 +225,15 @@ def scrambled(rgb):
 @cache
 def reflectance_image(name):
     """Return a scan's reflectance as a gray photo, at least 400 pixels wide."""
-    from reflcolor_addon.matching.scan_image import pixel_steps, reflectance_image
+    from reflcolor_addon.matching import scan_image
 
     own = scan(name)
-    vertical, horizontal = pixel_steps(own)
+    vertical, horizontal = scan_image.pixel_steps(own)
     height, width = own.shape[0] * vertical, own.shape[1] * horizontal
     scale = max(400, own.shape[1]) / width
-    gray = cv2.resize(reflectance_image(own, "percentiles"), (round(width * scale), max(16, round(height * scale))))
+    gray = cv2.resize(
+        scan_image.reflectance_image(own, "percentiles"), (round(width * scale), max(16, round(height * scale)))
+    )
     return np.repeat(np.rint(np.clip(gray, 0, 255)).astype(np.uint8)[..., None], 3, axis=-1)
 
 
