@@ -53,15 +53,17 @@ def main():
         state |= json.loads(arguments.state.read_text())
     for name in tried:
         entry = state[name]
-        with tempfile.TemporaryDirectory() as folder:
-            step = (_Signals if name == _SIGNALS_FAULT else _Kills)(Path(folder), name)
-            while entry["moments"] < arguments.moments and (end is None or time.monotonic() < end):
-                counted, bad = step.moment()
-                entry["moments"] += 1
-                entry["counts"] = dict(Counter(entry["counts"]) + Counter(counted))
-                entry["bad"] += bad
-                if arguments.state:
-                    arguments.state.write_text(json.dumps(state))
+        if entry["moments"] < arguments.moments and (end is None or time.monotonic() < end):
+            with tempfile.TemporaryDirectory() as folder:
+                step = (_Signals if name == _SIGNALS_FAULT else _Kills)(Path(folder), name)
+                while entry["moments"] < arguments.moments and (end is None or time.monotonic() < end):
+                    counted, bad = step.moment()
+                    entry["moments"] += 1
+                    entry["counts"] = dict(Counter(entry["counts"]) + Counter(counted))
+                    entry["bad"] += bad
+                    if arguments.state:
+                        arguments.state.write_text(json.dumps(state))
+                step.end()
         told = ", ".join(f"{what}: {count}" for what, count in sorted(entry["counts"].items()))
         print(f"{name:<8} {entry['moments']} moments; {told}", flush=True)
         for each in entry["bad"]:
@@ -70,31 +72,41 @@ def main():
 
 
 class _Kills:
-    """kill -9 while one kind of file is written on and on; each run first cleans up after the one before."""
+    """kill -9 while one kind of file is written on and on, by copies of one Blender that has all it needs in memory."""
 
     def __init__(self, folder, suffix):
-        self._folder, self._place = folder, folder / "place"
+        self._place = folder / "place"
         self._place.mkdir()
         self._path = self._place / f"out{suffix}"
         prepare(folder)
+        option = ("-o", "colors.ply", "--render") if suffix == ".png" else ("-o",)
+        words = ["kill", folder / "resources", *colorize_words(), *option, self._path]
+        self._blender = _started(folder, *words)
+        self._longest = 2.2 * self._answer("time")
 
     def moment(self):
-        """Kill one run; return what is counted, and what went wrong."""
-        option = ("-o", "colors.ply", "--render") if self._path.suffix == ".png" else ("-o",)
-        words = ["kill", self._folder / "resources", *colorize_words(), *option, self._path]
-        with _started(self._folder, *words) as process:
-            line = next((said for said in process.stdout if said.startswith("written ")), None)
-            if line is None:
-                return {}, [f"it did not write: {process.stderr.read()[-300:]!r}"]
-            bad = [f"the next run did not clean up: {left}" for left in litter(self._place)]
-            process.stdin.write("\n")
-            process.stdin.flush()
-            time.sleep(random.uniform(0, 2.2 * float(line.split()[1])))
-            process.kill()
+        """Kill one copy, then have another write once; return what is counted, and what went wrong."""
+        bad = []
+        self._answer(f"kill {random.uniform(0, self._longest)}")
         if (fault := fault_of(self._path)) is not None:
             bad.append(f"neither the old nor the new file: {fault}")
         left = "left a folder, which the next run removed" if litter(self._place) else "left nothing"
+        self._answer("time")
+        bad += [f"the next run did not clean up: {name}" for name in litter(self._place)]
         return {"whole": int(not bad), left: 1}, bad
+
+    def end(self):
+        """End Blender."""
+        self._blender.kill()
+        self._blender.communicate()
+
+    def _answer(self, request):
+        self._blender.stdin.write(f"{request}\n")
+        self._blender.stdin.flush()
+        line = next((said for said in self._blender.stdout if said.startswith("answer ")), None)
+        if line is None:
+            raise RuntimeError(f"Blender did not write: {self._blender.stderr.read()[-300:]!r}")
+        return float(line.split()[1])
 
 
 class _Signals:
@@ -124,6 +136,9 @@ class _Signals:
         if left := halves + litter(self._folder) + scratch:
             bad.append(f"{number.name}: left {left}")
         return {f"status {status}": 1}, bad
+
+    def end(self):
+        """Nothing is left to end."""
 
     def _run(self, number):
         words = [*colorize_words(), "-o", "o.blend", "-o", "o.usd", "--render", "o.png", "--report", "o.json"]
@@ -159,9 +174,14 @@ def _child(fault, resources, *words):
     from build_extension import host_platform, running_python, zip_path
 
     bpy = blender_session.start(zip_path(host_platform(), (running_python(),)), Path(resources))
-    command, writing, render = (
-        importlib.import_module(f"{blender_session.EXTENSION}.operators.{name}")
-        for name in ("command", "scene.write_results", "scene.render")
+    command, writing, render, folders = (
+        importlib.import_module(f"{blender_session.EXTENSION}.{name}")
+        for name in (
+            "operators.command",
+            "operators.scene.write_results",
+            "operators.scene.render",
+            "reflcolor_addon.files.work_folder",
+        )
     )
     render.picture_size = lambda _aspect: _SIZE
     if fault == _SIGNALS_FAULT:
@@ -173,12 +193,24 @@ def _child(fault, resources, *words):
     if fault == _SIGNALS_FAULT or status:
         blender_session.end(status)
     write = _writer(bpy, writing, Path(words[-1]))
-    start = time.monotonic()
-    write()
-    print(f"written {time.monotonic() - start:.3f}", flush=True)
-    sys.stdin.readline()
-    while True:
-        write()
+    for request in sys.stdin:
+        kind, *seconds = request.split()
+        start = time.monotonic()
+        number = os.fork()
+        if number == 0:
+            # A copy of this process, but one that knows of no folder that it has cleaned.
+            folders._cleaned.clear()
+            write()
+            while kind == "kill":
+                write()
+            os._exit(0)
+        if kind == "kill":
+            time.sleep(float(seconds[0]))
+            os.kill(number, signal.SIGKILL)
+        if os.waitpid(number, 0)[1] not in (0, signal.SIGKILL):
+            sys.exit(f"a copy of Blender failed to write {words[-1]}")
+        # What a killed copy was printing has no end.
+        print(f"\nanswer {time.monotonic() - start:.3f}", flush=True)
 
 
 def _writer(bpy, writing, path):
