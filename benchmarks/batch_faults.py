@@ -215,6 +215,8 @@ def _full(folder, _whole, known, _moments):
         status, said = _run(own)
         before = _finished(disk)
         bad = _plain(said, status, 1)
+        if not (last := said.splitlines()[-1]).startswith("error: batch.toml: ") or "failed: scan_" not in last:
+            bad.append(f"its last line does not name what failed: {last}")
         subprocess.run(["mount", "-o", "remount,size=64m", disk], check=True)
         status, again = _run(own, "--resume")
         bad += _plain(again, status, 0) + _faults(own, known, before, "after room was made")

@@ -12,6 +12,7 @@ import pytest
 from archives import make_archive, outputs_of
 from command_line import process_line, run_process
 
+from reflcolor_addon.batch.archive import color_stage
 from reflcolor_addon.batch.archive.done import Done
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.registrations import Registrations
@@ -157,8 +158,6 @@ def test_a_folder_that_vanishes_ends_the_batch_in_one_line(archive, batch, monke
 
 
 def test_a_record_that_cannot_be_kept_costs_one_scan_and_no_other(archive, batch, monkeypatch):
-    from reflcolor_addon.batch.archive.done import Done
-
     record = Done.record
 
     def full(self, name, *arguments):
@@ -173,6 +172,20 @@ def test_a_record_that_cannot_be_kept_costs_one_scan_and_no_other(archive, batch
     monkeypatch.undo()
     monkeypatch.chdir(archive)
     assert "1 done, 2 done before" in batch("--resume")[1]
+
+
+def test_a_full_disk_is_told_by_what_failed_and_what_to_do_not_by_the_table_of_pairs(archive, batch, monkeypatch):
+    def full(*_):
+        raise OutputError("{file}: cannot be written (No space left on device)", file="pairs.csv")
+
+    (archive / "hall_1.ptx").write_text("no scan\n")
+    monkeypatch.setattr(color_stage, "_write_table", full)
+    status, out, err = batch("--keep-going")
+    assert status == 1 and "hall_1: failed: hall_1.ptx: line 1" in out
+    table, told = err.splitlines()
+    assert table == "error: pairs.csv: cannot be written (No space left on device)"
+    assert told.startswith("error: batch.toml: 1 of 3 failed: hall_1; ")
+    assert told.endswith("run the batch again with --resume")
 
 
 def test_a_result_that_is_gone_before_it_is_recorded_costs_one_scan_and_no_other(archive, batch, monkeypatch):

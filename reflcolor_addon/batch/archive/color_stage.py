@@ -3,13 +3,14 @@
 from dataclasses import replace
 from pathlib import Path
 
+from ...errors import OutputError
 from ...seeds.seeds_file import photos_named
 from ..check import inputs_of
 from ..paths import files_of_each
 from ..plan import IMAGE, PLACEHOLDER, RENDER, Output
 from ..plan_document import as_document
 from .costs import memory_of, seconds_of
-from .options import COLOR, ELSEWHERE, KNOWN, UNSHOWN
+from .options import COLOR, ELSEWHERE, FAILED, KNOWN, UNSHOWN
 from .pairs import NO, UNTESTED, YES, write_pairs
 from .stage import remember_item, work_on
 from .workers import Task
@@ -55,7 +56,13 @@ def colorize_items(context, states, photos):
     for state in states:
         if state.outcome == KNOWN and state.left_out and not _written(context, state):
             state.outcome = UNSHOWN
-    _write_table(context)
+    try:
+        _write_table(context)
+    except OutputError as error:
+        # A full disk costs scans, too, and these are told last.
+        if not any(state.outcome == FAILED for state in states):
+            raise
+        context.session.complain(str(error))
 
 
 def color_plan(context, item, photos):

@@ -131,7 +131,8 @@ def _tell(states, arguments, session):
     failed = [state for state in states if state.outcome == FAILED]
     if failed:
         message = Message(
-            "{file}: {count} of {whole} failed: {names}; see the folder logs",
+            "{file}: {count} of {whole} failed: {names}; see the lines above and the folder logs, mend what they name, "
+            "and run the batch again with --resume",
             file=arguments.input,
             count=len(failed),
             whole=len(states),
