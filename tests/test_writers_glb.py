@@ -14,6 +14,7 @@ from reflcolor_addon.errors import Cancelled, OutputError
 from reflcolor_addon.files.writers import glb as glb_module
 from reflcolor_addon.files.writers.glb import check_glb_size, write_glb
 from reflcolor_addon.scan.scan import Scan
+from reflcolor_addon.srgb import srgb8_to_linear
 
 
 @pytest.fixture
@@ -51,7 +52,7 @@ def test_every_return_is_there_at_its_place(wall):
 
 def test_colors_come_back_to_the_byte_from_linear_light(wall):
     scan, rgb, _, path = wall
-    np.testing.assert_array_equal(encoded(Glb(path).attribute("COLOR_0")[:, :3]), rgb[scan.valid])
+    np.testing.assert_array_equal(encoded(Glb(path).attribute("COLOR_0")), rgb[scan.valid])
 
 
 def test_each_of_the_256_levels_comes_back(tmp_path):
@@ -59,8 +60,7 @@ def test_each_of_the_256_levels_comes_back(tmp_path):
     scan, rgb = replace(scan, valid=np.ones((16, 16), bool)), np.repeat(np.arange(256).reshape(16, 16, 1), 3, axis=2)
     write_glb([surface_of(scan, rgb.astype(np.uint8))], tmp_path / "levels.glb")
     colors = Glb(tmp_path / "levels.glb").attribute("COLOR_0")
-    np.testing.assert_array_equal(encoded(colors[:, :3]), rgb.reshape(-1, 3))
-    assert (colors[:, 3] == 1).all()
+    np.testing.assert_array_equal(encoded(colors), rgb.reshape(-1, 3))
 
 
 def test_values_are_attributes_of_an_application(wall):
@@ -87,6 +87,14 @@ def test_trimesh_reads_surface_and_points(wall):
     # Y is up in glTF; seen from the scanner, so that the faces look at it.
     towards = (scan.pose[:3, 3] * [1, 1, 1])[[0, 2, 1]] * [1, 1, -1] - meshes[0].triangles_center
     assert (np.einsum("ij,ij->i", meshes[0].face_normals, towards) > 0).all()
+
+
+def test_trimesh_reads_the_linear_colors(wall):
+    scan, rgb, *_, path = wall
+    linear = srgb8_to_linear(rgb[scan.valid])
+    surface, points = trimesh.load(path, process=False).geometry.values()
+    np.testing.assert_allclose(surface.visual.vertex_attributes["color"], linear, atol=1e-6)
+    np.testing.assert_array_equal(points.colors[:, :3], np.rint(255 * linear))
 
 
 def test_the_shift_of_a_far_scan_is_told_and_keeps_millimeters(tmp_path):

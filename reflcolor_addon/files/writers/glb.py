@@ -20,7 +20,7 @@ from ...version import __version__
 from ..atomic import written_atomically
 
 _LARGEST = 2**32 - 1
-_FLOAT, _SHORT, _INDEX = 5126, 5123, 5125
+_FLOAT, _INDEX = 5126, 5125
 _ARRAY, _ELEMENTS = 34962, 34963
 _POINTS, _TRIANGLES = 0, 4
 _HEADER = 12
@@ -31,7 +31,8 @@ _JSON_PER_SCAN = 8192
 _MORE_VALUES = 4
 _TO_Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 _ROTATION_TOLERANCE = 1e-7
-_LINEAR = np.rint(srgb8_to_linear(np.arange(256)) * 65535).astype("<u2")
+# Floats, not normalized integers: trimesh takes only the lower byte of 16 bits.
+_LINEAR = srgb8_to_linear(np.arange(256)).astype("<f4")
 
 
 def check_glb_size(surfaces, path, *, textures=None):
@@ -58,7 +59,7 @@ def _glb_bytes(surfaces, textures, triangles):
     for surface, texture in zip(surfaces, textures, strict=True):
         values = len(surface.value_types) + (0 if surface.has_colors else _MORE_VALUES)
         # Position, normal and color; a vertex in no face is listed by its index.
-        size += surface.vertex_count * (12 + 12 + 8 + 4 * values + 4) + triangles(surface) * 12
+        size += surface.vertex_count * (12 + 12 + 12 + 4 * values + 4) + triangles(surface) * 12
         size += len(texture or b"") + _JSON_PER_SCAN
     return size
 
@@ -74,8 +75,9 @@ def write_glb(
     """Write colored scans into a GLB: a node for each, in meters, Y up.
 
     A node stands where the scanner stood, whole kilometers taken off as in Blender's scene; the extra
-    ``reflcolor_shift`` of the scene says how much. ``COLOR_0`` is linear light, as glTF has it, in 16 bits, from which
-    every 8-bit sRGB color comes back exactly; values are attributes ``_NAME``. Returns that are in no face are points.
+    ``reflcolor_shift`` of the scene says how much. ``COLOR_0`` is linear light, as glTF has it, in single
+    precision, from which every 8-bit sRGB color comes back exactly; values are attributes ``_NAME``. Returns that are
+    in no face are points.
 
     Parameters
     ----------
@@ -184,7 +186,7 @@ class _Document:
             "NORMAL": self._accessor(surface.vertex_count, "VEC3"),
         }
         if texture is None:
-            attributes["COLOR_0"] = self._accessor(surface.vertex_count, "VEC4", _SHORT, normalized=True)
+            attributes["COLOR_0"] = self._accessor(surface.vertex_count, "VEC3")
         else:
             attributes["TEXCOORD_0"] = self._accessor(surface.vertex_count, "VEC2")
         for name in surface.value_types:
@@ -232,8 +234,8 @@ class _Document:
             file.write(image["data"])
 
     def _accessor(self, count, kind, component=_FLOAT, target=_ARRAY, **more):
-        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[kind]
-        view = self._view(count * width * (2 if component == _SHORT else 4), target=target)
+        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[kind]
+        view = self._view(4 * count * width, target=target)
         self._accessors.append({"bufferView": view, "componentType": component, "count": count, "type": kind, **more})
         return len(self._accessors) - 1
 
@@ -292,9 +294,7 @@ def _put_vertices(surface, placement, attributes, put):
         put(attributes["POSITION"], placement.points(block.points))
         put(attributes["NORMAL"], placement.normals(normals))
         if "COLOR_0" in attributes:
-            colors = np.full((len(block.rgb), 4), 65535, "<u2")
-            colors[:, :3] = _LINEAR[block.rgb]
-            put(attributes["COLOR_0"], colors)
+            put(attributes["COLOR_0"], _LINEAR[block.rgb])
         else:
             put(attributes["TEXCOORD_0"], block.uv.astype("<f4"))
         for name, values in block.values.items():
