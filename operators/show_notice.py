@@ -4,7 +4,7 @@ import bpy
 from bpy.props import IntProperty
 
 from .scene import polls
-from .scene.editor_images import side_in
+from .scene.editor_images import center_images
 from .scene.editors import redraw_editors
 from .scene.notices import seed_of
 from .scene.texts import tip
@@ -60,25 +60,6 @@ class REFLCOLOR_OT_show_notice(NoticeChoice, bpy.types.Operator):
             self.report({"INFO"}, notice.text)
             return {"FINISHED"}
         return bpy.ops.reflcolor.read_notice("INVOKE_DEFAULT", index=self.index)
-
-
-def center_images(context, obj, row, col):
-    """Move the view of every Image Editor that shows an image of the scan so that a pixel is in its middle."""
-    if context.window is None:
-        return
-    for area in context.window.screen.areas:
-        region = next((region for region in area.regions if region.type == "WINDOW"), None)
-        if area.type != "IMAGE_EDITOR" or region is None:
-            continue
-        side = side_in(area, region, context)
-        if side is None or not side.is_scan or side.obj != obj:
-            continue
-        x, y = side.view.to_region((col + 0.5, row + 0.5))
-        # A border as large as the region moves the view but keeps its zoom.
-        left, bottom = round(x - region.width / 2), round(y - region.height / 2)
-        border = {"xmin": left, "xmax": left + region.width, "ymin": bottom, "ymax": bottom + region.height}
-        with context.temp_override(area=area, region=region):
-            bpy.ops.image.view_zoom_border(**border)
 
 
 classes = (REFLCOLOR_OT_show_notice,)

@@ -106,6 +106,7 @@ def undisturbed(tmp_path_factory):
     return outputs_of(folder / "colored")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX systems")
 @pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGKILL])
 def test_a_batch_that_is_ended_goes_on_where_it_was(tmp_path, monkeypatch, undisturbed, stop):

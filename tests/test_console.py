@@ -52,6 +52,7 @@ def closed(arguments, numbers):
     return subprocess.run([sys.executable, "-c", close, *line], **options, capture_output=True, timeout=60, check=False)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="streams are closed the POSIX way")
 def test_closed_streams_change_nothing_in_the_outputs(cli_folder):
     # Native code prints about a broken photo, to whichever file is number 2.

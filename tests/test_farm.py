@@ -54,6 +54,7 @@ def test_the_template_is_valid_and_has_all_steps(parameters):
     assert [step["name"] for step in told["steps"]] == ["Look", "Color", "Render", "Report"]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="the stand-in for Blender is a script of POSIX systems")
 def test_the_template_runs_all_steps_and_names_the_scan_that_failed(parameters):
     done = openjd("run", TEMPLATE, *given(parameters))

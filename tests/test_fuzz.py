@@ -16,6 +16,7 @@ def test_every_kind_has_its_share(trials):
     assert list(SHARES) == trials.kinds
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", SHARES)
 def test_what_is_changed_is_read_or_refused_in_one_line(trials, kind):
     outcomes = [trials.run(kind, number) for number in range(PER_SHARE * SHARES[kind])]

@@ -10,6 +10,7 @@ from reflcolor_addon.errors import ReflcolorError
 from reflcolor_addon.geodesic import kernel
 
 
+@pytest.mark.slow
 @settings(max_examples=1000)
 @given(small_graphs())
 def test_a_field_is_the_reference_within_the_stated_error(small):

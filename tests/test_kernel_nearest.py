@@ -101,6 +101,7 @@ def test_the_lists_of_single_pixels_are_those_of_all():
     np.testing.assert_array_equal(seeds, found.seeds[[1, 2], [0, 3]])
 
 
+@pytest.mark.slow
 def test_a_large_image_is_searched_in_bands_and_agrees_with_its_fields():
     random = np.random.default_rng(4)
     luminance, range_image = (random.random((2, 1100, 1000)) * 9).astype(np.float32)

@@ -64,6 +64,7 @@ def test_two_photos_of_one_name_are_told_apart_by_their_folders_and_one_given_tw
         opened_photos([paths[0], paths[0]])
 
 
+@pytest.mark.slow
 def test_two_hundred_megapixels_are_reduced_and_their_points_counted_in_full(room, photo):
     huge = cv2.resize(photo, (16384, 12288), interpolation=cv2.INTER_NEAREST)
     (opened,) = opened_photos([huge])

@@ -139,6 +139,7 @@ def test_a_right_camera_stands_out_from_the_photos_parts_exchanged(room, camera)
     assert evidence(image, photo, camera).strength > 3 * chance.max()
 
 
+@pytest.mark.slow
 def test_a_camera_off_by_one_patch_of_a_pattern_moves_to_where_more_agrees(room, camera):
     views, photo = ScanViews(room), PhotoImage("photo", painted_room.photo(camera))
     rng = np.random.default_rng(0)

@@ -62,6 +62,7 @@ def test_three_pairs_are_too_few(camera):
     assert camera_from_pairs(POINTS[:3], camera.project(POINTS[:3])[0], PHOTO)[0] is None
 
 
+@pytest.mark.slow
 def test_pairs_that_no_camera_sees_so_are_refused():
     xy = np.random.default_rng(0).uniform(0, 360, (len(POINTS), 2))
     assert camera_from_pairs(POINTS, xy, PHOTO)[0] is None

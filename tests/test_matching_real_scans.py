@@ -16,6 +16,7 @@ def median_error(matching, scan):
     return np.median(error[known])
 
 
+@pytest.mark.slow
 def test_infrared_is_registered_with_a_photo_from_beside(data_dir):
     scan = real_scans.load("k4a", data_dir)
     matching = match_photos(scan, [Path(data_dir, "k4a_mug/color_1280x720.jpg")])
@@ -25,6 +26,7 @@ def test_infrared_is_registered_with_a_photo_from_beside(data_dir):
     assert median_error(matching, scan) < 12
 
 
+@pytest.mark.slow
 def test_a_view_is_registered_with_one_turned_by_thirty_degrees(data_dir):
     scan, other = (real_scans.load(f"bildstein_{view}", data_dir) for view in ("10", "15"))
     matching = match_photos(scan, [other.color])
@@ -33,6 +35,7 @@ def test_a_view_is_registered_with_one_turned_by_thirty_degrees(data_dir):
     assert seen.sum() > 50
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["doria", "pumpA"])
 def test_a_scans_own_colors_are_registered(data_dir, name):
     scan = real_scans.load(name, data_dir)

@@ -83,6 +83,7 @@ def test_seeds_lie_on_pixels_with_a_return_one_per_superpixel(matching, room):
     assert len(seeds) <= 2 * FEW.slic_segments
 
 
+@pytest.mark.slow
 def test_the_same_input_gives_the_same_seeds_whatever_the_thread_count(monkeypatch, matching, room, turned):
     threads = cv2.getNumThreads()
     other = 1 if sphere_map.thread_count() > 1 else 2
@@ -108,6 +109,7 @@ def test_an_unrelated_photo_is_refused_said_so_and_no_worse_than_its_mean_color(
     assert len(found) > 50
 
 
+@pytest.mark.slow
 def test_an_unrelated_photo_gives_no_seeds_unless_guesses_are_wanted(room, noise):
     hand = Seeds([40], [40], [[1, 2, 3]])
     for picked, expected in ((None, ()), (hand, ("hand",))):
@@ -152,6 +154,7 @@ def test_six_pairs_picked_by_hand_place_a_photo_from_the_side(room):
     assert (chroma_error(matching.seeds, room)[posed] < 40).mean() > 0.8
 
 
+@pytest.mark.slow
 def test_pairs_that_place_a_photo_where_it_shows_nothing_are_told(room, noise):
     # From below the floor and behind the wall only their backs are seen.
     camera = painted_room.camera((0.0, 9.0, -9.0), yaw_deg=180, pitch_deg=50)
@@ -168,6 +171,7 @@ def test_pairs_that_place_a_photo_where_it_shows_nothing_are_told(room, noise):
     assert "pose" not in matching.seeds.reason
 
 
+@pytest.mark.slow
 def test_a_pair_that_does_not_fit_is_named(room):
     camera = painted_room.camera((0.9, 0.3, 0.2), yaw_deg=-9)
     xy, _ = camera.project(room.points)
@@ -199,6 +203,7 @@ def test_kept_seeds_stay_as_they_are_and_nothing_is_found_on_their_pixels(matchi
     assert len(seeds) > 100
 
 
+@pytest.mark.slow
 def test_scans_of_a_site_share_what_they_learn(room, turned):
     unseen = painted_room.scan(rows=40, columns=40, step_deg=0.5, name="corner")
     unseen = replace(unseen, points=unseen.points[:, ::-1] * [1, -1, 1], pose=np.diag([1.0, -1, 1, 1]))

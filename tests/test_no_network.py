@@ -62,6 +62,7 @@ def test_the_library_sees_sockets_here_and_in_a_child(watched):
     assert watched(f"import subprocess, sys; subprocess.run([sys.executable, '-I', '-c', {code!r}])") == ["socket"]
 
 
+@pytest.mark.slow
 def test_no_file_that_is_read_opens_a_socket(watched):
     data = Path(os.environ.get("REFLCOLOR_DATA") or ROOT.parent / "shared" / "data")
     named = sorted(str(path) for folder in ("robust/e57", "robust/ptx", "cases") for path in (data / folder).glob("*"))

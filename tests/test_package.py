@@ -42,6 +42,7 @@ def run(installed, *arguments, cwd):
     return subprocess.run(line, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.slow
 def test_the_examples_of_the_readme_run_with_the_native_kernel(installed, tmp_path):
     write_ptx(random_scan(shape=(20, 30)), tmp_path / "garage.ptx")
     Seeds([1, 15], [2, 20], [[200, 80, 40], [20, 80, 220]]).save(tmp_path / "garage.seeds.json")

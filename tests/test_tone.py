@@ -182,6 +182,7 @@ def test_of_the_real_scans_only_the_infrared_camera_s_is_called_dark(real_scans,
     assert hints == ([HINT + "4.1"] if name == "k4a" else [])
 
 
+@pytest.mark.slow
 def test_the_infrared_camera_s_colors_come_nearer_to_the_truth_with_the_tone_to_try(real_scans):
     scan = real_scans["k4a"]
     colorizer, known = Colorizer(scan), has_truth(scan)

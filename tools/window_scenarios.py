@@ -115,11 +115,11 @@ def scenario_files() -> dict[str, ScenarioFile]:
     return files
 
 
-def run_file(file: ScenarioFile, names: list[str], blender: Blender, zip_file: Path) -> dict[str, Outcome]:
-    """Start a Blender for scenarios of a file; return the outcome of each."""
+def run_file(file: ScenarioFile, names: list[str], blender: Blender, zip_file: Path, user: Path) -> dict[str, Outcome]:
+    """Start a Blender with a user folder for scenarios of a file; return the outcome of each."""
     stem = file.path.stem
     out, results, log = OUT / stem, OUT / f"{stem}.jsonl", OUT / f"{stem}.log"
-    user = OUT / (f"user-{stem}" if file.fresh else "user")
+    user = OUT / f"user-{stem}" if file.fresh else user
     for folder in (out, user) if file.fresh else (out,):
         shutil.rmtree(folder, ignore_errors=True)
     for folder in (out, user):

@@ -118,3 +118,22 @@ def _view(region, image):
     first = to_region(-_MARGIN, -_MARGIN, clip=False)
     second = to_region(1 + _MARGIN, 1 + _MARGIN, clip=False)
     return ImageView.through(image.size, first, second, _MARGIN)
+
+
+def center_images(context, obj, row, col):
+    """Move the view of every Image Editor that shows an image of the scan so that a pixel is in its middle."""
+    if context.window is None:
+        return
+    for area in context.window.screen.areas:
+        region = next((region for region in area.regions if region.type == "WINDOW"), None)
+        if area.type != "IMAGE_EDITOR" or region is None:
+            continue
+        side = side_in(area, region, context)
+        if side is None or not side.is_scan or side.obj != obj:
+            continue
+        x, y = side.view.to_region((col + 0.5, row + 0.5))
+        # A border as large as the region moves the view but keeps its zoom.
+        left, bottom = round(x - region.width / 2), round(y - region.height / 2)
+        border = {"xmin": left, "xmax": left + region.width, "ymin": bottom, "ymax": bottom + region.height}
+        with context.temp_override(area=area, region=region):
+            bpy.ops.image.view_zoom_border(**border)

@@ -2,32 +2,50 @@
 
 import os
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from queue import Queue
 
 import pytest
 from build_extension import build, host_platform
 from window_blender import find_blender
 from window_scenarios import OUT, run_file, scenario_files
 
+# How many Blenders run at a time: one, where stalls are measured.
+WINDOWS = int(os.environ.get("REFLCOLOR_WINDOWS", "1"))
+
 
 @pytest.fixture(scope="session")
 def outcome_of(request):
-    """A function that gives a scenario's outcome; the first question about a file starts a Blender for it."""
+    """A function that gives a scenario's outcome: each file runs in a Blender, REFLCOLOR_WINDOWS of them at a time."""
     blender = find_blender()
     named = os.environ.get("REFLCOLOR_ZIP")
     zip_file = Path(named).resolve(strict=True) if named else build(host_platform(), (blender.python,))
-    shutil.rmtree(OUT / "user", ignore_errors=True)
+    for left in OUT.glob("user*"):
+        shutil.rmtree(left, ignore_errors=True)
     OUT.mkdir(parents=True, exist_ok=True)
-    asked = [item.callspec.params["scenario"] for item in request.session.items if hasattr(item, "callspec")]
-    files, outcomes = scenario_files(), {}
+    files = scenario_files()
+    names = {}
+    for item in request.session.items:
+        stem, name = item.callspec.params["scenario"]
+        names.setdefault(stem, []).append(name)
+    # Each Blender that runs has a user folder of its own.
+    users = Queue()
+    for number in range(WINDOWS):
+        users.put(OUT / f"user-{number + 1}")
 
-    def outcome(stem, name):
-        if stem not in outcomes:
-            names = [other for file, other in asked if file == stem]
-            outcomes[stem] = run_file(files[stem], names, blender, zip_file)
-        return outcomes[stem][name]
+    def outcomes(stem):
+        user = users.get()
+        try:
+            return run_file(files[stem], names[stem], blender, zip_file, user)
+        finally:
+            users.put(user)
 
-    return outcome
+    with ThreadPoolExecutor(WINDOWS) as pool:
+        running = {stem: pool.submit(outcomes, stem) for stem in names}
+        yield lambda stem, name: running[stem].result()[name]
+        for each in running.values():
+            each.cancel()
 
 
 def pytest_terminal_summary(terminalreporter):
