@@ -179,8 +179,9 @@ def test_a_scan_is_turned_flipped_and_counted_as_a_person_says(tmp_path):
     (tmp_path / "hall.ptx").write_text(ptx_text(HALL, NAMES))
     options = ReadOptions(turn_deg=90, flip_horizontal=True, unit="ft", step=2)
     (scan,) = read_scans(tmp_path / "hall.ptx", options=options)
-    np.testing.assert_array_equal(scan.reflectance, np.rot90(NAMES, -1)[:, ::-1][::2, ::2])
-    np.testing.assert_allclose(scan.points, np.rot90(HALL, -1)[:, ::-1][::2, ::2] * 0.3048)
+    # The file counts its rows from the bottom: of the 40 the last one is the first of those that are kept.
+    np.testing.assert_array_equal(scan.reflectance, np.rot90(NAMES[1::2, ::2], -1)[:, ::-1])
+    np.testing.assert_allclose(scan.points, np.rot90(HALL[1::2, ::2], -1)[:, ::-1] * 0.3048)
 
 
 # Poses and places

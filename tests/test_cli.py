@@ -223,7 +223,8 @@ def test_a_scan_is_read_as_the_options_say_and_the_report_tells(run_cli, cli_fol
     options = ("--turn", "180", "--flip", "vertical", "--unit", "ft")
     (scan,) = json.loads(run_cli("info", "garage.ptx", "--json", *options, "--step", "2")[1])["scans"]
     assert (scan["rows"], scan["columns"]) == (-(-SHAPE[0] // 2), -(-SHAPE[1] // 2))
-    assert scan["range_m"][1] == pytest.approx(0.3048 * plain.range[::2, ::-2].max())
+    # The file counts its rows from the bottom.
+    assert scan["range_m"][1] == pytest.approx(0.3048 * plain.range[::-2, ::2].max())
     assert run_cli(*COLORIZE, *options, "-o", "out.png", "--report", "r.json")[0] == 0
     entry = json.loads((cli_folder / "r.json").read_text(encoding="utf-8"))["scan"]
     assert entry["flipped"] == ["vertical"] and entry["reading"] == {"turn_deg": 180, "unit": "ft"}

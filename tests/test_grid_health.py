@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sample_scans import room_points
 
-from reflcolor_addon.scan.coherence import is_unordered, line_length
+from reflcolor_addon.scan.coherence import LineLength, is_unordered
 from reflcolor_addon.scan.grid_health import coarser, compacted, nearest_to_center, neighbor_share
 from reflcolor_addon.scan.origin import better_origin, fitted_origin, repeated_point
 
@@ -44,19 +44,24 @@ def test_too_few_points_are_taken_as_they_are():
     assert not is_unordered(np.random.default_rng(0).normal(size=(4, 5, 3)), np.ones((4, 5), bool))
 
 
+def length_of(points, valid, candidates):
+    length = LineLength(len(points), candidates)
+    return length.of(points[length.places], valid[length.places])
+
+
 @pytest.mark.parametrize("swapped", [False, True])
 @given(seed=st.integers(0, 2**32), share=st.floats(0.3, 1))
 def test_the_length_of_a_line_is_found_among_two(swapped, seed, share):
     rng = np.random.default_rng(seed)
     points = ROOM.reshape(-1, 3) if swapped else ROOM.swapaxes(0, 1).reshape(-1, 3)
     valid = rng.random(len(points)) < share
-    assert line_length(points, valid, (40, 90)) == (90 if swapped else 40)
-    assert line_length(points, valid, (90, 40)) == (90 if swapped else 40)
+    assert length_of(points, valid, (40, 90)) == (90 if swapped else 40)
+    assert length_of(points, valid, (90, 40)) == (90 if swapped else 40)
 
 
 def test_the_stated_length_is_kept_where_the_points_do_not_tell():
-    assert line_length(np.zeros((12, 3)), np.zeros(12, bool), (3, 4)) == 3
-    assert line_length(np.zeros((3600, 3)), np.ones(3600, bool), (90, 40)) == 90
+    assert length_of(np.zeros((12, 3)), np.zeros(12, bool), (3, 4)) == 3
+    assert length_of(np.zeros((3600, 3)), np.ones(3600, bool), (90, 40)) == 90
 
 
 @pytest.mark.parametrize(("by_row", "by_col"), [(3, 3), (2, 1), (1, 5)])

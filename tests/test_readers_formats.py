@@ -12,6 +12,7 @@ from test_cases import HALL, NAMES
 from reflcolor_addon.errors import Cancelled, ScanError
 from reflcolor_addon.files.readers import FORMATS, ReadOptions, read_scans
 from reflcolor_addon.files.readers.formats import REFUSED
+from reflcolor_addon.files.readers.numpy_file import NumpyFile
 from reflcolor_addon.files.writers.ply import write_ply
 from reflcolor_addon.scan.scan import Scan
 
@@ -189,7 +190,7 @@ def test_a_disk_that_fails_is_no_damaged_file(tmp_path, monkeypatch):
     def failing(*_, **__):
         raise OSError(errno.EIO, "Input/output error")
 
-    monkeypatch.setattr(np.lib.format, "read_array", failing)
+    monkeypatch.setattr(NumpyFile, "_fill", failing)
     with pytest.raises(ScanError, match=r"hall.npy: cannot be read \(Input/output error\)"):
         read_scans(tmp_path / "hall.npy")
 

@@ -38,7 +38,7 @@ class ReadingProperties:
     )
     step: IntProperty(
         name="Every",
-        description="Keep only each row and column whose number is a multiple of this, for large scans",
+        description="Read only every so many rows and columns of the file, which saves time and memory on large scans",
         default=1,
         min=1,
         soft_max=16,

@@ -31,6 +31,12 @@ _GATE = {
     "{what} needs about {needed} of memory, and {free} are free": (
         "{what} braucht etwa {needed} Arbeitsspeicher, und {free} sind frei"
     ),
+    "{what} needs about {needed} of memory, and {free} are free; {way}": (
+        "{what} braucht etwa {needed} Arbeitsspeicher, und {free} sind frei; {way}"
+    ),
+    "read every second row and column only: --step 2, or Every in the import dialog": (
+        "nur jede zweite Zeile und Spalte lesen: --step 2 oder Jede im Importdialog"
+    ),
     "{file}: {width:,} x {height:,} pixels": "{file}: {width:,} x {height:,} Pixel",
     "{file}: {rows} x {columns} pixels": "{file}: {rows} x {columns} Pixel",
     "{file}: {count:,} points": "{file}: {count:,} Punkte",

@@ -98,8 +98,8 @@ _SCANS = {
     "The one with the most reflectance": ("Das mit der höchsten Reflektanz"),
     "The nearest one": ("Das nächste"),
     "Which of several returns of a pixel to take": ("Welches von mehreren Echos eines Pixels zu nehmen ist"),
-    "Keep only each row and column whose number is a multiple of this, for large scans": (
-        "Nur jede Zeile und Spalte behalten, deren Nummer ein Vielfaches davon ist, für große Scans"
+    "Read only every so many rows and columns of the file, which saves time and memory on large scans": (
+        "Nur jede so vielte Zeile und Spalte der Datei lesen; das spart bei großen Scans Zeit und Speicher"
     ),
     "International feet": ("Internationale Fuß"),
     "As depth cameras count": ("Wie Tiefenkameras zählen"),

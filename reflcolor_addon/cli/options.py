@@ -58,7 +58,7 @@ def add_reading(parser):
         type=int,
         metavar="N",
         default=default.step,
-        help="keep every N-th row and column (default %(default)s)",
+        help="read every N-th row and column only; a large scan then takes 1/N² of the memory (default %(default)s)",
     )
     group.add_argument(
         "--returns",

@@ -21,16 +21,15 @@ def available_bytes():
         return None
 
 
-def require_memory(needed, what, *, error=ReflcolorError):
-    """Raise `error` in one line if `needed` bytes for `what` are more than there are."""
+def require_memory(needed, what, *, way=None, error=ReflcolorError):
+    """Raise `error` in one line if `needed` bytes for `what` are more than there are; a `way` out is told with it."""
     available = available_bytes()
-    if available is not None and needed > available:
-        raise error(
-            "{what} needs about {needed} of memory, and {free} are free",
-            what=what,
-            needed=readable(needed),
-            free=readable(available),
-        )
+    if available is None or needed <= available:
+        return
+    values = {"what": what, "needed": readable(needed), "free": readable(available)}
+    if way is not None:
+        raise error("{what} needs about {needed} of memory, and {free} are free; {way}", way=way, **values)
+    raise error("{what} needs about {needed} of memory, and {free} are free", **values)
 
 
 def readable(count):

@@ -19,20 +19,38 @@ _ROUNDS = 3.0
 """A scanner's profile goes around once; a list of the points of a whole grid goes back and forth many times."""
 
 
-def line_length(points, valid, candidates):
-    """Return the one of several lengths of line that a list of points was cut from.
+class LineLength:
+    """Finds how long the lines are that a list of points was cut from, by a few of the points.
 
     Parameters
     ----------
-    points : (N, 3) float64
-    valid : (N,) bool
+    count : int
+        Points of the list.
     candidates : sequence of int
-        Divisors of N; the first is taken unless another is clearly better.
+        Divisors of it; the first is taken unless another is clearly better.
+
+    Attributes
+    ----------
+    places : (S,) int64
+        The numbers of the points that are looked at, in order.
     """
-    apart = [_between_lines(points, valid, length) for length in candidates]
-    best = int(np.nanargmin(apart)) if np.isfinite(apart).any() else 0
-    stated = apart[0]
-    return candidates[best] if np.isfinite(stated) and apart[best] < _CLEARLY_NEARER * stated else candidates[0]
+
+    def __init__(self, count, candidates):
+        self._candidates = candidates
+        self._pairs = [_between_lines(count, length) for length in candidates]
+        self.places = np.unique(np.concatenate([place for pair in self._pairs for place in pair]))
+
+    def of(self, points, valid):
+        """Return the length of line, given the (S, 3) points at ``places`` and which of them are returns."""
+        apart = []
+        for here, there in (np.searchsorted(self.places, pair) for pair in self._pairs):
+            both = valid[here] & valid[there]
+            few = np.count_nonzero(both) < _FEWEST
+            apart.append(np.nan if few else float(np.median(_distances(points[here][both], points[there][both]))))
+        best = int(np.nanargmin(apart)) if np.isfinite(apart).any() else 0
+        stated = apart[0]
+        clear = np.isfinite(stated) and apart[best] < _CLEARLY_NEARER * stated
+        return self._candidates[best if clear else 0]
 
 
 def is_unordered(points, valid):
@@ -78,14 +96,10 @@ def _from_neighbor(points, valid, rows, cols):
     return np.nan
 
 
-def _between_lines(points, valid, length):
-    """Median distance from a point to the one at the same place of the next line; NaN where too few tell."""
-    for every in (max(1, (len(valid) - length) // _PAIRS), 1):
-        here, there = slice(0, max(0, len(valid) - length), every), slice(length, None, every)
-        both = valid[here] & valid[there]
-        if np.count_nonzero(both) >= _FEWEST:
-            return float(np.median(_distances(points[here][both], points[there][both])))
-    return np.nan
+def _between_lines(count, length):
+    """Numbers of some points, and of those at the same place of the next line."""
+    here = np.arange(0, max(0, count - length), max(1, (count - length) // _PAIRS))
+    return here, here + length
 
 
 def _apart(points, one, other):

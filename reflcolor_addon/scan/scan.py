@@ -11,6 +11,13 @@ from ..messages import LONGEST_LINE, Message, one_line
 from .limits import FARTHEST_M, LONGEST_NAME, MOST_PIXELS, SCALES, STRONGEST
 
 
+class HandedOver(np.ndarray):
+    """Points that nobody else will change: a `Scan` keeps them as they are instead of a copy of them.
+
+    Made by ``points.view(HandedOver)``, of a C-contiguous float64 array.
+    """
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Scan:
     """One scan, upright: row 0 is the top, columns run left to right as seen from the scanner.
@@ -77,8 +84,7 @@ class Scan:
                 most=MOST_PIXELS,
             )
         arrays = {
-            # A copy, so that changes of the caller's array and of this one stay apart.
-            "points": np.array(self.points, np.float64, order="C"),
+            "points": _own(self.points),
             "reflectance": np.ascontiguousarray(self.reflectance, np.float32),
             "valid": np.ascontiguousarray(self.valid, bool),
             "pose": np.ascontiguousarray(self.pose, np.float64),
@@ -210,6 +216,13 @@ def is_plausible(pose):
         return False
     scales = np.linalg.svd(linear, compute_uv=False)
     return bool(SCALES[0] <= scales[-1] and scales[0] <= SCALES[1])
+
+
+def _own(points):
+    """C-contiguous float64; a copy, so that changes of the caller's array and of this one stay apart."""
+    if isinstance(points, HandedOver) and points.dtype == np.float64 and points.flags.c_contiguous:
+        return points.view(np.ndarray)
+    return np.array(points, np.float64, order="C")
 
 
 def _as_line(warning):

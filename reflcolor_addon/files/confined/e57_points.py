@@ -2,15 +2,12 @@
 
 It imports nothing of the package, and needs nothing but this folder and the library: one line of JSON comes in (see
 `main`), then a line for each scan that is wanted; lines of JSON go out. Points go into a file that the parent holds
-open, one column of doubles after the other.
+open, one column of doubles after the other, as many as it has room for at a time.
 """
 
 import json
 import sys
 from pathlib import Path
-
-_RECORDS = 1 << 16
-"""Records that are read at a time."""
 
 
 def main(lines, answer):
@@ -21,9 +18,10 @@ def main(lines, answer):
     lines : iterable of str
         First ``{"library": path, "folders": [of DLLs], "file": [number or null, path], "columns": [number or null,
         path], "memory": bytes, "written": bytes, "seconds": number}``, then for each scan
-        ``{"scan": index, "vector": [names below it], "count": records, "fields": [names]}``.
+        ``{"scan": index, "vector": [names below it], "count": records, "room": records, "fields": [names]}``, and any
+        line after each answer ``{"read": records}``, when what was read has been taken.
     answer : callable
-        Called with each answer: ``{"at": records so far}``, ``{"done": records}``, or ``{"error": text}``.
+        Called with each answer: ``{"read": records}``, ``{"done": records in all}``, or ``{"error": text}``.
     """
     from confinement import confine, reopened
     from program import library_at, shared_memory
@@ -42,33 +40,30 @@ def main(lines, answer):
             records = scans[wanted["scan"]]
             for name in wanted["vector"]:
                 records = records[name]
-            done = _read(library, image, records, wanted["fields"], wanted["count"], columns, answer)
-            answer({"done": done})
+            reader = records.reader(_buffers(library, image, wanted["fields"], wanted["room"], columns))
+            try:
+                at = 0
+                while at < wanted["count"] and (done := reader.read()):
+                    done = min(done, wanted["count"] - at)
+                    at += done
+                    answer({"read": done})
+                    next(lines)
+            finally:
+                reader.close()
+            answer({"done": at})
     except MemoryError:
         answer({"error": "ErrorMemory"})
     except Exception as error:  # native code raises errors of any type: only their text is usable
         answer({"error": str(error)[:10_000]})
 
 
-def _read(library, image, records, fields, count, columns, answer):
-    chunk = memoryview(bytearray(8 * _RECORDS * len(fields)))
-    places = [slice(8 * _RECORDS * place, 8 * _RECORDS * (place + 1)) for place in range(len(fields))]
+def _buffers(library, image, fields, room, columns):
+    """Where the library puts the records: each field into its own column."""
     buffers = library.VectorSourceDestBuffer()
-    for name, place in zip(fields, places, strict=True):
-        buffers.append(library.SourceDestBuffer(image, name, chunk[place].cast("d"), _RECORDS, True, True))
-    reader = records.reader(buffers)
-    at = 0
-    try:
-        while at < count and (done := reader.read()):
-            done = min(done, count - at)
-            for place in range(len(fields)):
-                start, source = 8 * (place * count + at), places[place].start
-                columns[start : start + 8 * done] = chunk[source : source + 8 * done]
-            at += done
-            answer({"at": at})
-    finally:
-        reader.close()
-    return at
+    for place, name in enumerate(fields):
+        column = columns[8 * room * place : 8 * room * (place + 1)].cast("d")
+        buffers.append(library.SourceDestBuffer(image, name, column, room, True, True))
+    return buffers
 
 
 if __name__ == "__main__":

@@ -80,7 +80,7 @@ class ConfinedReading:
 
     def __enter__(self):
         try:
-            self.answer("ready")
+            self.answer(ready=1)
         except BaseException:
             self.__exit__()
             raise
@@ -94,15 +94,15 @@ class ConfinedReading:
         with OneLine(self._path, self._kind):
             self._child.ask(request)
 
-    def answer(self, *kinds, most=1):
-        """(kind, number) of the next answer, which is one of these kinds with a number of 0 to ``most``."""
+    def answer(self, **most):
+        """(kind, number) of the next answer, which is one of these kinds with a number from 0 to what each can be."""
         with OneLine(self._path, self._kind):
             answer = self._child.answer()
             if isinstance(answer.get("error"), str):
                 raise ScanError("{file}: {reason}", file=self._path.name, reason=self._reason_of(answer["error"]))
-            for kind in kinds:
+            for kind, greatest in most.items():
                 number = answer.get(kind)
-                if isinstance(number, int) and 0 <= number <= most:
+                if isinstance(number, int) and 0 <= number <= greatest:
                     return kind, number
             raise ChildFailed("garbage")
 

@@ -10,7 +10,7 @@ from ..memory import require_memory
 from .angle import gridded_by_angle
 from .colors import scaled_colors
 from .e57_grid import IndexGrid
-from .grid import BYTES_PER_PIXEL, UnusableScan, finish_scan
+from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_scan
 from .options import ANGLE
 from .settle import NO_ROWS
 
@@ -49,6 +49,7 @@ def check_size(path, count, columns=8):
     require_memory(
         count * (8 * columns + BYTES_PER_PIXEL),
         Message("{file}: {count:,} points", file=path.name, count=count),
+        way=LIGHTER,
         error=ScanError,
     )
 
@@ -60,7 +61,8 @@ def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None,
     ----------
     path : Path
     columns : dict of (N,) arrays
-        By name, in lower case. ``x``, ``y`` and ``z``; a strength, colors, rows and columns where there are any.
+        By name, in lower case. ``x``, ``y`` and ``z``, or ``xyz`` (N, 3), which may be changed; a strength, colors,
+        rows and columns where there are any.
     options : ReadOptions
     name : str, optional
         Of the scan; the file's stem unless given.
@@ -83,9 +85,12 @@ def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None,
     def warn(template, **values):
         warnings.append(of_scan(header.name, template, **values))
 
-    if not {"x", "y", "z"} <= columns.keys():
+    if "xyz" in columns:
+        points = np.ascontiguousarray(columns["xyz"], np.float64)
+    elif {"x", "y", "z"} <= columns.keys():
+        points = np.stack([np.asarray(columns[axis], np.float64) for axis in "xyz"], axis=-1)
+    else:
         raise UnusableScan("{file}: scan '{scan}' has no coordinates x, y and z", **header.place)
-    points = np.stack([np.asarray(columns[axis], np.float64) for axis in "xyz"], axis=-1)
     with np.errstate(invalid="ignore"):
         valid = np.isfinite(points).all(axis=-1) & (points != 0).any(axis=-1)
     strength = next((columns[key] for key in _STRENGTHS if key in columns), None)

@@ -1,7 +1,5 @@
 """E57: scans of points that know their row and column, or the line that they are in."""
 
-from functools import partial
-
 import numpy as np
 
 from ...errors import Cancelled, ScanError
@@ -11,10 +9,10 @@ from ..memory import require_memory
 from .e57_columns import E57Columns
 from .e57_file import read_structure, scan_name, scan_nodes
 from .e57_header import GROUP, GROUPS, INDEX, scan_header
-from .e57_points import stored_grids
+from .e57_points import E57Points
 from .formats import Format
-from .grid import BYTES_PER_PIXEL, UnusableScan, finish_grid, with_problems
-from .options import AS_IT_IS
+from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_grid, with_problems
+from .options import ANGLE, AS_IT_IS
 
 
 def read_e57(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -35,14 +33,22 @@ def read_e57(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
 
     Errors are those of `read_scans`; a file with none but unstructured scans is a ScanError.
     """
-    read = [scan for scan, *_ in each_scan(file, path, options=options, progress=progress, cancelled=cancelled)]
+    asked = {"options": options, "progress": progress, "cancelled": cancelled}
+    read = [scan for scan, *_ in each_scan(file, path, with_cells=False, **asked)]
     finished = [scan for scan in read if not isinstance(scan, UnusableScan)]
     problems = [scan for scan in read if isinstance(scan, UnusableScan)]
     return with_problems(finished, problems, len(read), path)
 
 
-def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
+def each_scan(file, path, *, options=AS_IT_IS, with_cells=True, progress=None, cancelled=None):
     """Yield for every scan of an E57 file, in its order, (scan, order, cells).
+
+    Parameters
+    ----------
+    with_cells : bool
+        Without them a scan of which only every n-th row and column is read takes less memory.
+
+    Others and errors are those of `read_scans`.
 
     Yields
     ------
@@ -50,18 +56,24 @@ def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
         The error for one that cannot be used.
     order : GridOrder
         The way from the stored grid to the scan's; None for one that cannot be used.
-    cells : callable
+    cells : callable or None
         Returns (N,) int64: the pixel of the stored grid that each point of the file is in, row by row; -1 for none.
     """
     root, xml_size = read_structure(file, path, cancelled)
     nodes = scan_nodes(root, path)
-    headers = [_header(node, path, size_of(file), scan_name(node, path, i, len(nodes))) for i, node in enumerate(nodes)]
+    headers = [
+        _header(node, path, size_of(file), scan_name(node, path, index, len(nodes)), options)
+        for index, node in enumerate(nodes)
+    ]
     usable = [header for header in headers if not isinstance(header, UnusableScan)]
     if not usable:
         yield from ((header, None, None) for header in headers)
         return
-    words = max(max(header.count * len(header.fields), header.group_count * len(GROUP)) for header in usable)
-    with E57Columns(file, path, words=words, xml_size=xml_size, cancelled=cancelled) as columns:
+    most = {
+        "fields": max(max(len(header.fields), len(GROUP)) for header in usable),
+        "count": max(max(header.count, header.group_count) for header in usable),
+    }
+    with E57Columns(file, path, **most, xml_size=xml_size, cancelled=cancelled) as columns:
         done = 0
         for index, header in enumerate(headers):
             if isinstance(header, UnusableScan):
@@ -78,25 +90,33 @@ def each_scan(file, path, *, options=AS_IT_IS, progress=None, cancelled=None):
 
             done += 1
             if header.grouped_by is not None and not header.has(INDEX):
-                groups = columns.read(index, header.group_count, GROUP, report, vector=GROUPS)
-                header.groups = {name: values.copy() for name, values in groups.items()}
-            read = columns.read(index, header.count, header.fields, report)
+                parts = [
+                    {name: values.copy() for name, values in part.items()}
+                    for part in columns.read(index, header.group_count, GROUP, report, vector=GROUPS)
+                ]
+                header.groups = {name: np.concatenate([part[name] for part in parts]) for name in GROUP}
+            points = E57Points(header, options, with_cells)
+            for part in columns.read(index, header.count, header.fields, report):
+                points.add(part)
             try:
-                stored, cells = stored_grids(read, header, options)
-                yield (*finish_grid(source=path, **stored), partial(np.asarray, cells))
+                stored, cells = points.grids()
+                del points
+                yield (*finish_grid(source=path, **stored), cells)
             except UnusableScan as error:
                 yield error, None, None
 
 
-def _header(node, path, file_size, name):
+def _header(node, path, file_size, name, options):
     """The ScanHeader of a scan, or the UnusableScan that says why it has none."""
     try:
         header = scan_header(node, path.name, file_size, name)
     except UnusableScan as error:
         return error
+    thinned = options.step if header.has(INDEX) and options.grid != ANGLE else 1
     require_memory(
-        header.count * (8 * len(header.fields) + BYTES_PER_PIXEL),
+        header.count // thinned**2 * (4 * len(header.fields) + BYTES_PER_PIXEL),
         Message("{file}: scan '{scan}': {count:,} points", file=path.name, scan=name, count=header.count),
+        way=LIGHTER,
         error=ScanError,
     )
     return header

@@ -12,6 +12,9 @@ from ..gate import size_of
 
 SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "e57_points.py"
 _WORD = 8
+_ROOM = 1 << 19
+"""Records that are read at a time."""
+
 # What the child may take: the library, its nodes for every byte of the XML section, and its buffers.
 _BASE_BYTES, _BYTES_PER_XML_BYTE = 1 << 29, 40
 # Seconds of the processor: far more than the slowest machine needs.
@@ -38,8 +41,8 @@ class E57Columns:
         The E57, open.
     path : Path
         Its place, for messages and for systems that cannot hand on what is open.
-    words : int
-        Numbers that the largest of the scans takes: records times fields.
+    fields, count : int
+        The most fields, and the most records, that any of the scans has.
     xml_size : int
         Bytes of the XML section.
     cancelled : callable, optional
@@ -52,10 +55,11 @@ class E57Columns:
         If ``cancelled()`` returned True.
     """
 
-    def __init__(self, file, path, *, words, xml_size, cancelled=None):
+    def __init__(self, file, path, *, fields, count, xml_size, cancelled=None):
         self._path = path
         library, folders = library_of(path)
-        size = max(1, words) * _WORD
+        self._room = min(_ROOM, max(1, count))
+        size = max(1, fields) * self._room * _WORD
         self._reading = ConfinedReading(
             SCRIPT,
             "E57",
@@ -79,7 +83,7 @@ class E57Columns:
         self._reading.__exit__(*error)
 
     def read(self, index, count, fields, report, vector=("points",)):
-        """Read the points of a scan.
+        """Read the points of a scan, piece by piece.
 
         Parameters
         ----------
@@ -93,26 +97,33 @@ class E57Columns:
         vector : sequence of str
             Where the records are below the scan's node: its points, or its groups of them.
 
-        Returns
-        -------
-        dict of str to (count,) float64
-            Views of the shared memory: the next reading overwrites them.
+        Yields
+        ------
+        dict of str to (n,) float64
+            The next records. Views of the shared memory: what comes after overwrites them.
         """
         report(0.0)
-        self._reading.ask({"scan": index, "vector": list(vector), "count": count, "fields": list(fields)})
-        while (found := self._reading.answer("at", "done", most=count))[0] == "at":
-            report(found[1] / count)
-        if found[1] != count:
+        wanted = {"scan": index, "vector": list(vector), "count": count, "room": self._room, "fields": list(fields)}
+        self._reading.ask(wanted)
+        at = 0
+        while True:
+            kind, number = self._reading.answer(read=min(self._room, count - at), done=count)
+            if kind == "done":
+                break
+            yield {
+                name: np.frombuffer(self._reading.memory, np.float64, number, _WORD * self._room * place)
+                for place, name in enumerate(fields)
+            }
+            at += number
+            report(at / count)
+            self._reading.ask({})
+        if not at == number == count:
             raise ScanError(
                 "{file}: holds {found:,} points where {count:,} were announced; it is damaged",
                 file=self._path.name,
-                found=found[1],
+                found=number,
                 count=count,
             )
-        return {
-            name: np.frombuffer(self._reading.memory, np.float64, count, _WORD * count * place)
-            for place, name in enumerate(fields)
-        }
 
 
 def library_of(path):

@@ -7,7 +7,8 @@ import numpy as np
 from ...errors import ScanError
 from ...messages import Message
 from ..memory import require_memory
-from .grid import BYTES_PER_PIXEL, UnusableScan
+from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan
+from .grid_memory import strips
 
 _CELLS_PER_POINT = 1000
 # How many times larger than the extent of the points the bounds stated in a file may be: a small scene under a large
@@ -31,7 +32,7 @@ class IndexGrid:
 
     Parameters
     ----------
-    rows, columns : (N,) float64
+    rows, columns : (N,) int32 or float64
         Index of every point, of any sign, from any start.
     limits : dict
         (low, high) of ``rowIndex`` and ``columnIndex`` as the file states them, each may be None.
@@ -44,6 +45,11 @@ class IndexGrid:
         If the indices are no whole numbers, or span a grid that is nearly empty.
     ScanError
         If the grid does not fit into memory.
+
+    Attributes
+    ----------
+    shape, first : (H, W), (row, column)
+        Size of the grid, and the index that its first row and column have.
     """
 
     def __init__(self, rows, columns, limits, header):
@@ -70,12 +76,13 @@ class IndexGrid:
             Message(
                 "{file}: scan '{scan}': {rows} rows x {columns} columns", rows=height, columns=width, **self._place
             ),
+            way=LIGHTER,
             error=ScanError,
         )
-        self.shape = (height, width)
-        self.cells = (rows - first_row).astype(np.int64) * width + (columns - first_column).astype(np.int64)
-        """(N,) pixel of every point, row by row."""
-        self._points = self._pixels = None
+        self.shape, self.first = (height, width), (first_row, first_column)
+        self._rows, self._columns = rows, columns
+        self._points = self._pixels = self._valid = None
+        self._by_columns = False
 
     def place(self, valid, returns, points, strength, wanted, warn):
         """Give every pixel its point.
@@ -97,11 +104,18 @@ class IndexGrid:
         UnusableScan
             If the numbers do not tell the points apart.
         """
-        there = np.flatnonzero(valid)
-        cells = self.cells[there]
-        if there.size == 0 or np.bincount(cells).max() == 1:
+        for by_columns in (False, True):
+            if self._is_complete(by_columns):
+                self._valid, self._by_columns = valid, by_columns
+                return
+        there = slice(None) if valid.all() else np.flatnonzero(valid)
+        cells = self.cells(there)
+        taken = np.zeros(self.shape[0] * self.shape[1], bool)
+        taken[cells] = True
+        if np.count_nonzero(taken) == len(cells):
             self._points, self._pixels = there, cells
             return
+        there = np.flatnonzero(valid)
         distance = np.einsum("ij,ij->i", points[there], points[there])
         number = distance if returns is None else returns[there]
         if wanted == "strongest" and strength is not None:
@@ -138,16 +152,53 @@ class IndexGrid:
 
     def spread(self, values, dtype=None):
         """(H, W, ...) grid of (N, ...) values of the points; zeros in pixels without a return."""
-        grid = np.zeros((self.shape[0] * self.shape[1], *values.shape[1:]), dtype or values.dtype)
+        height, width = self.shape
+        more, dtype = values.shape[1:], np.dtype(dtype or values.dtype)
         with np.errstate(over="ignore", invalid="ignore"):
-            grid[self._pixels] = values if len(self._points) == len(values) else values[self._points]
-        return grid.reshape(*self.shape, *values.shape[1:])
+            values = np.ascontiguousarray(values, dtype)
+        if self._valid is not None:
+            # The points are the pixels, in one order or the other.
+            values[~self._valid] = 0
+            if self._by_columns:
+                return values.reshape(width, height, *more).swapaxes(0, 1)
+            return values.reshape(height, width, *more)
+        grid = np.zeros((height * width, *more), dtype)
+        # One item for all values of a point: many times faster than one for each.
+        item = np.dtype((np.void, dtype.itemsize * math.prod(more)))
+        items, laid = (array.reshape(len(array), -1).view(item) for array in (values, grid))
+        laid[self._pixels] = items[self._points]
+        return grid.reshape(height, width, *more)
+
+    def cells(self, which=slice(None)):
+        """(n,) pixel of each of some points, or of all, row by row."""
+        height, width = self.shape
+        kind = np.int32 if height * width < 2**31 else np.int64
+        rows, columns = (np.asarray(values[which], kind) for values in (self._rows, self._columns))
+        return (rows - kind(self.first[0])) * kind(width) + (columns - kind(self.first[1]))
+
+    def _is_complete(self, by_columns):
+        """Whether the points are all pixels of the grid, row by row, or column by column."""
+        lines, places = (self._columns, self._rows) if by_columns else (self._rows, self._columns)
+        first, (count, length) = self.first, self.shape
+        if by_columns:
+            first, (count, length) = first[::-1], self.shape[::-1]
+        if len(lines) != count * length:
+            return False
+        expected = np.arange(first[1], first[1] + length)
+        for rows in strips((count, length)):
+            here = slice(rows.start * length, rows.stop * length)
+            numbers = np.arange(first[0] + rows.start, first[0] + rows.stop)[:, None]
+            if not (lines[here].reshape(-1, length) == numbers).all():
+                return False
+            if not (places[here].reshape(-1, length) == expected).all():
+                return False
+        return True
 
     def _extent(self, index, field, limits):
         """First number and count. The file's own bounds are believed where they hold all points and are not absurd."""
         with np.errstate(invalid="ignore"):
-            whole = (np.abs(index) < _LARGEST_INDEX) & (index == np.floor(index))
-        if not whole.all():
+            whole = index.dtype.kind == "i" or ((np.abs(index) < _LARGEST_INDEX) & (index == np.floor(index))).all()
+        if not whole:
             raise UnusableScan(
                 "{file}: scan '{scan}': {field} holds values that are not whole numbers; export it as PTX",
                 field=field,

@@ -1,20 +1,23 @@
 """The last step of every reader of scanners' files: from stored grids to a Scan that is upright and clean."""
 
 from dataclasses import replace
-from functools import reduce
 
 import numpy as np
 
 from ...errors import ScanError
 from ...messages import Message, of_scan
 from ...scan.limits import FARTHEST_M, NEAREST_M, STRONGEST
-from ...scan.scan import Scan
+from ...scan.scan import HandedOver, Scan
+from .grid_memory import in_order, strips
 from .options import AS_IT_IS
 from .reflectance import told_apart
 from .settle import NO_GRID, NoGrid, Settled
 
-BYTES_PER_PIXEL = 120
-"""Peak memory of reading: the stored arrays, their upright copies and one or two masks."""
+BYTES_PER_PIXEL = 80
+"""Peak memory of reading: the points, the other arrays and their upright copies, and some masks."""
+
+LIGHTER = Message("read every second row and column only: --step 2, or Every in the import dialog")
+"""What to do where memory does not suffice."""
 
 _MOST_TOLD = 5
 """This many of the scans that are left out are listed one by one."""
@@ -84,12 +87,9 @@ def finish_grid(
     def warn(template, **values):
         warnings.append(of_scan(name, template, **values))
 
-    # NaN stays NaN.
-    largest = reduce(np.maximum, (np.abs(points[..., axis]) for axis in range(3)))
-    measured = valid & (largest != 0)
+    measured, usable = _told_apart_by_size(points, valid)
     reflectance, color = told_apart(reflectance, color, measured, warn)
-    # The square of a smaller coordinate would underflow, and its range would be 0.
-    usable = measured & (largest < FARTHEST_M) & (largest > NEAREST_M) & (np.abs(reflectance) < STRONGEST)
+    usable &= np.abs(reflectance) < STRONGEST
     if lost := np.count_nonzero(measured) - np.count_nonzero(usable):
         warn(
             "{count:,} points hold a number that is not finite, far too large or far too small, and were taken as no "
@@ -100,9 +100,8 @@ def finish_grid(
         raise UnusableScan(
             "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
         )
-    left = ~usable & ~(largest == 0)
-    if left.any():
-        points[left] = 0.0
+    if lost or not measured.all():
+        points[~usable] = 0.0
     try:
         settled = Settled(points, usable, pose, places or {}, origin, options, warn)
     except NoGrid:
@@ -115,7 +114,7 @@ def finish_grid(
         )
     scan = Scan(
         name=name,
-        points=settled.points,
+        points=in_order(settled.points).view(HandedOver),
         reflectance=np.where(settled.valid, settled.order.of(reflectance), np.float32(0)),
         valid=settled.valid,
         color=settled.order.of(color),
@@ -124,6 +123,19 @@ def finish_grid(
         warnings=tuple(warnings),
     )
     return scan, settled.order
+
+
+def _told_apart_by_size(points, valid):
+    """(H, W) where there is a return at all, and where its coordinates can be used."""
+    measured, usable = np.empty(valid.shape, bool), np.empty(valid.shape, bool)
+    for rows in strips(valid.shape):
+        x, y, z = (np.abs(points[rows, :, axis]) for axis in range(3))
+        # NaN stays NaN.
+        largest = np.maximum(np.maximum(x, y), z)
+        np.logical_and(valid[rows], largest != 0, out=measured[rows])
+        # The square of a smaller coordinate would underflow, and its range would be 0.
+        usable[rows] = measured[rows] & (largest < FARTHEST_M) & (largest > NEAREST_M)
+    return measured, usable
 
 
 def with_problems(finished, problems, count, source):

@@ -145,7 +145,7 @@ def _decompressed(file, path, header, report, cancelled):
         reason_of=_reason_of,
         cancelled=cancelled,
     ) as reading:
-        while (found := reading.answer("at", "done", most=count))[0] == "at":
+        while (found := reading.answer(at=count, done=count))[0] == "at":
             report(found[1] / count)
         if found[1] != count:
             raise ScanError("{file}: holds less than its header says; it is cut short", file=path.name)

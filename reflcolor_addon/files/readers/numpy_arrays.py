@@ -1,35 +1,22 @@
 """NumPy arrays: .npy and .npz with x, y, z, or with range and angles."""
 
-import struct
-import tokenize
-import zipfile
-import zlib
+from dataclasses import replace
 
 import numpy as np
 
 from ...errors import ScanError
 from ...messages import Message
 from ...scan.directions import directions
-from ...scan.limits import MOST_PIXELS
-from ..gate import opened, size_of
-from .cloud import check_size, scan_of_columns
+from ..gate import opened
+from .cloud import scan_of_columns
 from .formats import Format
-from .options import AS_IT_IS
+from .numpy_file import MAGIC, ZIP, NumpyFile
+from .options import ANGLE, AS_IT_IS
 
-_MAGIC, _ZIP = b"\x93NUMPY", b"PK\x03\x04"
 _POINTS = ("xyz", "points", "point_cloud", "cloud")
 _RANGES = ("range", "ranges", "range_m", "distance", "depth_ray")
 _AZIMUTHS, _ELEVATIONS = ("azimuth_deg", "azimuth"), ("elevation_deg", "elevation", "altitude")
 _COLORS = ("color", "colors", "rgb")
-_MOST_MEMBERS = 256
-_PACKED_AT_MOST = 1100
-_PACKED_BY = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
-_DAMAGED = (
-    *(ValueError, KeyError, TypeError, EOFError, NotImplementedError),
-    *(SyntaxError, tokenize.TokenError, struct.error, zlib.error, zipfile.BadZipFile),
-)
-"""Errors of NumPy and zipfile for incomplete files; a failing disk is an OSError, which the gate reports."""
-_ENCRYPTED = 1
 
 
 def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -40,15 +27,16 @@ def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, ca
     Whole numbers of a range are millimeters. ``reflectance``, ``intensity``, ``reflectivity`` or ``signal`` (H, W);
     ``color`` (H, W, 3). An (H, W, 4) array is x, y, z and reflectance. Parameters and errors are those of `read_scans`.
     """
-    arrays = _arrays(file, path)
-    if progress:
-        progress(0.6, Message("Reading {file}", file=path.name))
+    step = 1 if options.grid == ANGLE else options.step
+    arrays = NumpyFile(file, path, progress, cancelled).arrays(_thinning(step) if step > 1 else None)
     points = _points(arrays, path)
     shape = points.shape[:2] if points.ndim == 3 else None
     mask = arrays.get("valid")
     if mask is not None and mask.dtype == bool and mask.shape == points.shape[:-1]:
         points[~mask] = 0.0
-    columns = dict(zip("xyz", points.reshape(-1, points.shape[-1]).T[:3], strict=True))
+    if shape is not None:
+        options = replace(options, step=options.step // step)
+    columns = {"xyz": points[..., :3].reshape(-1, 3)}
     if points.shape[-1] > 3:
         columns["reflectance"] = points.reshape(-1, points.shape[-1])[:, 3]
     size = points.shape[:-1]
@@ -69,7 +57,7 @@ def array_of(path, member):
         In one line.
     """
     with opened(path, Message("NumPy arrays"), error=ScanError) as file:
-        arrays = _arrays(file, path)
+        arrays = NumpyFile(file, path).arrays()
     found = arrays.get(member.lower()) if member else next(iter(arrays.values()), None) if len(arrays) == 1 else None
     if found is None or found.dtype.kind not in "fiu":
         raise ScanError(
@@ -137,65 +125,28 @@ def _angles(arrays, names):
     return arrays[name].astype(np.float64) if name.endswith("_deg") else np.degrees(arrays[name].astype(np.float64))
 
 
-def _arrays(file, path):
-    """Arrays by name, in lower case; a .npy's has none. Sizes are held against the file before anything is read."""
-    start = file.read(len(_MAGIC))
-    file.seek(0)
-    try:
-        if start == _MAGIC:
-            _check(file, size_of(file), path)
-            file.seek(0)
-            return _named(np.lib.format.read_array(file, allow_pickle=False))
-        with zipfile.ZipFile(file) as archive:
-            members = [member for member in archive.infolist() if member.filename.endswith(".npy")]
-            if len(members) > _MOST_MEMBERS:
-                raise ScanError("{file}: holds {count:,} arrays", file=path.name, count=len(members))
-            if sum(member.file_size for member in members) > _PACKED_AT_MOST * size_of(file):
-                raise ScanError("{file}: claims to hold more than a file of its size can", file=path.name)
-            if any(member.flag_bits & _ENCRYPTED for member in members):
-                raise ScanError("{file}: is encrypted; save it without a password", file=path.name)
-            if any(member.compress_type not in _PACKED_BY for member in members):
-                raise ScanError("{file}: uses a compression that NumPy does not write", file=path.name)
-            found = {}
-            for member in members:
-                with archive.open(member) as data:
-                    shape = _check(data, member.file_size, path)
-                if len(shape) in (1, 2, 3):
-                    with archive.open(member) as data:
-                        found[member.filename[:-4].lower()] = np.lib.format.read_array(data, allow_pickle=False)
-            return found
-    except ScanError:
-        raise
-    except _DAMAGED as error:
-        # Their texts are about Python, and quote the file at length.
-        raise ScanError(
-            "{file}: it is damaged or cut short, or holds something other than arrays of numbers", file=path.name
-        ) from error
+def _thinning(step):
+    """Which part to read of arrays of a grid, and of the angles of its rows and columns; see `NumpyFile.arrays`."""
 
+    def wanted(shapes):
+        names = [name for name in (*_POINTS, "") if len(shapes.get(name, ())) == 3]
+        names += [name for name in ("x", *_RANGES) if len(shapes.get(name, ())) == 2]
+        if not names:
+            return {}
+        height, width = shapes[names[0]][:2]
+        every = slice(None, None, step)
+        parts = {name: (every, every) for name, shape in shapes.items() if shape[:2] == (height, width)}
+        lines = ((_AZIMUTHS, width), (_ELEVATIONS, height))
+        parts |= {name: (every,) for angles, size in lines for name in angles if shapes.get(name) == (size,)}
+        return parts
 
-def _named(array):
-    """An array as a dictionary: the fields of a table under their names."""
-    if array.dtype.names:
-        return {name.lower(): array[name] for name in array.dtype.names}
-    return {"": array}
-
-
-def _check(data, size, path):
-    """See that the header of an array claims what its file can hold; return its shape."""
-    version = np.lib.format.read_magic(data)
-    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-    shape, _, dtype = read(data)
-    count = int(np.prod(shape, dtype=object))
-    if dtype.hasobject or count * dtype.itemsize > size or count > 4 * MOST_PIXELS:
-        raise ScanError("{file}: one of its arrays claims more data than the file can hold", file=path.name)
-    check_size(path, count // 3, 3)
-    return shape
+    return wanted
 
 
 FORMAT = Format(
     name="NumPy",
     suffixes=(".npz", ".npy"),
     read=read_numpy,
-    sniff=lambda start: start.startswith((_MAGIC, _ZIP)),
+    sniff=lambda start: start.startswith((MAGIC, ZIP)),
     about="x, y, z, or range with azimuth and elevation, each of the grid's size; reflectance, color",
 )

@@ -26,7 +26,9 @@ class ReadOptions:
     unit : str
         What the coordinates count: "m", "mm", "cm", "ft", "in"; "auto" is meters unless the points tell otherwise.
     step : int
-        Keep every row and column whose number is a multiple of it.
+        Keep every so many rows and columns, counted from the first of the file. The others are left out while reading,
+        so that a scan takes the memory of what is kept (not with a grid by angle, and not for images, compressed or
+        text files other than PTX, which are read whole first).
     returns : {"first", "strongest", "last"}
         Which of several returns of a pixel to take.
     grid : {"stored", "angle"}

@@ -1,6 +1,7 @@
 """PCD of the Point Cloud Library: organized clouds as they are, others by angle."""
 
 import struct
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from ...scan.limits import MOST_PIXELS
 from ..gate import size_of
 from .cloud import check_size, scan_of_columns
 from .formats import Format
-from .options import AS_IT_IS
+from .options import ANGLE, AS_IT_IS
 from .poses import quaternion_pose
 from .text_lines import TextLines
 
@@ -33,17 +34,22 @@ def read_pcd(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     count = width * height
     if not 0 < count <= MOST_PIXELS:
         raise ScanError("{file}: claims {count:,} points", file=path.name, count=count)
-    check_size(path, count, len(names))
+    organized = height > 1 and options.grid != ANGLE
+    step = options.step if organized else 1
+    check_size(path, count // step**2, len(names))
     record = np.dtype([(name, kind, (number,)) for name, kind, number in zip(names, types, counts, strict=True)])
     kind = header["DATA"][0].lower()
     if kind == "ascii":
-        columns = _ascii(file, path, names, counts, count, progress, cancelled)
+        columns = _ascii(file, path, names, counts, count, (width, step), progress, cancelled)
     elif kind == "binary":
         _require(size_of(file) - file.tell() >= count * record.itemsize, path)
-        table = np.frombuffer(file.read(count * record.itemsize), record, count)
+        table = _rows(file, path, record, (height, width), step, progress, cancelled)
         columns = {name: table[name][:, 0] for name in names}
     elif kind == "binary_compressed":
         columns = _compressed(file, path, record, count, progress, cancelled)
+        if step > 1:
+            every = slice(None, None, step), slice(None, None, step)
+            columns = {name: values.reshape(height, width)[every].flatten() for name, values in columns.items()}
     else:
         raise ScanError(
             "{file}: DATA is {found}, expected ascii, binary or binary_compressed", file=path.name, found=kind
@@ -53,7 +59,8 @@ def read_pcd(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     pose, warnings = quaternion_pose(np.array(viewpoint[3:]), np.array(viewpoint[:3]), path.stem)
     columns = {name.lower(): values for name, values in columns.items()}
     _unpack_colors(columns)
-    shape = (height, width) if height > 1 else None
+    shape = (-(-height // step), -(-width // step)) if height > 1 else None
+    options = replace(options, step=options.step // step)
     scan = scan_of_columns(path, columns, options=options, shape=shape, pose=pose, warnings=warnings)
     return [scan]
 
@@ -91,10 +98,26 @@ def _header(file, path):
     return header, unique, types, numbers
 
 
-def _ascii(file, path, names, counts, count, progress, cancelled):
+def _rows(file, path, record, shape, step, progress, cancelled):
+    """The records of every ``step``-th row and column, one after the other."""
+    height, width = shape
+    kept = np.empty((-(-height // step), -(-width // step)), record)
+    for row in range(height):
+        line = file.read(width * record.itemsize)
+        if row % step == 0:
+            kept[row // step] = np.frombuffer(line, record, width)[::step]
+        if cancelled and cancelled():
+            raise Cancelled
+        if progress:
+            progress((row + 1) / height, Message("Reading {file}", file=path.name))
+    return kept.ravel()
+
+
+def _ascii(file, path, names, counts, count, grid, progress, cancelled):
+    """Columns of the points; of a grid of (width, step) only those of every ``step``-th row and column."""
     lines = TextLines(file, path, progress=progress, cancelled=cancelled)
-    width = sum(counts)
-    values, at = np.empty((count, width)), 0
+    width, (columns, step) = sum(counts), grid
+    values, at, kept = np.empty((-(-count // columns // step) * -(-columns // step), width)), 0, 0
     while at < count and (chunk := lines.take(count - at)):
         chunk = [line.replace(",", " ") for line in chunk if line and not line.isspace()]
         if not chunk:
@@ -105,8 +128,11 @@ def _ascii(file, path, names, counts, count, progress, cancelled):
             found = np.empty((0, 0))
         if found.shape[1] != width:
             raise lines.error("expected lines of {count} numbers", count=width)
-        values[at : at + len(found)] = found
+        row, column = np.divmod(np.arange(at, at + len(found)), columns)
         at += len(found)
+        found = found[(row % step == 0) & (column % step == 0)] if step > 1 else found
+        values[kept : kept + len(found)] = found
+        kept += len(found)
     _require(at == count, path)
     starts = np.cumsum([0, *counts[:-1]])
     return {name: values[:, start] for name, start in zip(names, starts, strict=True)}

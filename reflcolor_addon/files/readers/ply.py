@@ -1,6 +1,7 @@
 """PLY with a grid: Stanford's range grids, vertices with rows and columns (as are written here), or a stated size."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,10 +12,12 @@ from ...scan.scan import is_plausible
 from ..gate import size_of
 from .cloud import check_size, scan_of_columns
 from .formats import Format
-from .options import AS_IT_IS
+from .options import ANGLE, AS_IT_IS
 from .text_lines import TextLines
 
 _LONGEST_HEADER = 1 << 16
+_RECORDS = 1 << 18
+_NUMBERS = ("grid_row", "grid_col")
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),
     **dict.fromkeys(("uchar", "uint8"), "u1"),
@@ -40,28 +43,38 @@ def read_ply(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     vertices = header.elements.get("vertex")
     if vertices is None or not 0 < vertices.count <= MOST_PIXELS:
         raise ScanError("{file}: holds no vertices", file=path.name)
-    check_size(path, vertices.count, len(vertices.properties))
+    step = 1 if options.grid == ANGLE else options.step
+    numbered = {name for name, *_ in vertices.properties}.issuperset(_NUMBERS)
+    check_size(path, vertices.count // (step**2 if numbered else 1), len(vertices.properties))
     columns, order = {}, header.order
-    reader = _Text(file, path, progress, cancelled) if order is None else _Binary(file, path, order)
+    thinning = _Thinned(step) if numbered and step > 1 else None
+    reader = (
+        _Text(file, path, progress, cancelled) if order is None else _Binary(file, path, order, progress, cancelled)
+    )
     grid = None
     for name, element in header.elements.items():
         if name == "vertex":
-            columns = {key.lower(): values for key, values in reader.table(element).items()}
+            columns = {key.lower(): values for key, values in reader.table(element, thinning).items()}
         elif name == "range_grid" and element.is_list_only:
             grid = reader.first_of_lists(element)
         elif columns and not ("range_grid" in header.elements and grid is None):
             break
         else:
             reader.skip(element)
-        if progress:
-            progress(0.5, Message("Reading {file}", file=path.name))
-        if cancelled and cancelled():
-            raise Cancelled
     shape = header.stated_size()
     if grid is not None and shape is not None and shape[0] * shape[1] == len(grid):
-        columns = _on_range_grid(columns, grid, vertices.count, path)
+        grid = grid.reshape(shape)[::step, ::step]
+        columns, shape = _on_range_grid(columns, grid.ravel(), vertices.count, path), grid.shape
+        options = replace(options, step=options.step // step)
     elif shape is not None and shape[0] * shape[1] != vertices.count:
         shape = None
+    elif shape is not None and step > 1:
+        every = slice(None, None, step), slice(None, None, step)
+        columns = {name: values.reshape(shape)[every].flatten() for name, values in columns.items()}
+        shape = tuple(-(-size // step) for size in shape)
+        options = replace(options, step=options.step // step)
+    if thinning is not None:
+        options = replace(options, step=1)
     return _scans(path, columns, shape, header, options)
 
 
@@ -98,6 +111,25 @@ def _on_range_grid(columns, grid, count, path):
         laid[name] = np.zeros(len(grid), values.dtype)
         laid[name][there] = values[grid[there]]
     return laid
+
+
+class _Thinned:
+    """Keeps every ``step``-th row and column of vertices with numbers, counted from those of the first one."""
+
+    def __init__(self, step):
+        self._step, self._first = step, None
+
+    def of(self, table):
+        """A table, or columns by their names, of those that are kept; their numbers are divided by the step."""
+        numbers = [table[name].astype(np.int64) for name in _NUMBERS]
+        if self._first is None:
+            self._first = [values[0] % self._step if len(values) else 0 for values in numbers]
+        numbers = [values - first for values, first in zip(numbers, self._first, strict=True)]
+        kept = (numbers[0] % self._step == 0) & (numbers[1] % self._step == 0)
+        table = table[kept] if isinstance(table, np.ndarray) else {name: each[kept] for name, each in table.items()}
+        for name, values in zip(_NUMBERS, numbers, strict=True):
+            table[name] = values[kept] // self._step
+        return table
 
 
 class _Element:
@@ -183,16 +215,27 @@ class _Header:
 
 
 class _Binary:
-    def __init__(self, file, path, order):
-        self._file, self._path, self._order = file, path, order
+    def __init__(self, file, path, order, progress, cancelled):
+        self._file, self._path, self._order, self._progress, self._cancelled = file, path, order, progress, cancelled
 
-    def table(self, element):
+    def table(self, element, thinning):
         if element.has_lists:
             raise ScanError("{file}: its vertices hold lists", file=self._path.name)
         record = np.dtype([(name, self._order + kind) for name, kind, _ in element.properties])
-        data = self._exactly(element.count * record.itemsize)
-        table = np.frombuffer(data, record, element.count)
-        return {name: table[name] for name in table.dtype.names}
+        self._require(element.count * record.itemsize)
+        # Memory is taken as it is filled.
+        table, kept = np.empty(element.count, record), 0
+        for first in range(0, element.count, _RECORDS):
+            count = min(_RECORDS, element.count - first)
+            part = np.frombuffer(self._file.read(count * record.itemsize), record, count)
+            part = part if thinning is None else thinning.of(part)
+            table[kept : kept + len(part)] = part
+            kept += len(part)
+            if self._cancelled and self._cancelled():
+                raise Cancelled
+            if self._progress:
+                self._progress((first + count) / element.count, Message("Reading {file}", file=self._path.name))
+        return {name: table[name][:kept] for name in record.names}
 
     def first_of_lists(self, element):
         """(N,) int64, the first item of each list; -1 for an empty one."""
@@ -213,16 +256,19 @@ class _Binary:
             raise ScanError("{file}: lists stand before its vertices", file=self._path.name)
 
     def _exactly(self, size):
+        self._require(size)
+        return self._file.read(size)
+
+    def _require(self, size):
         if size > size_of(self._file) - self._file.tell():
             raise ScanError("{file}: holds less than its header says; it is cut short", file=self._path.name)
-        return self._file.read(size)
 
 
 class _Text:
     def __init__(self, file, path, progress, cancelled):
         self._lines, self._path = TextLines(file, path, progress=progress, cancelled=cancelled), path
 
-    def table(self, element):
+    def table(self, element, thinning):
         if element.has_lists:
             raise ScanError("{file}: its vertices hold lists", file=self._path.name)
         width = len(element.properties)
@@ -236,7 +282,8 @@ class _Text:
                 raise self._lines.error("expected lines of {count} numbers", count=width)
             values[at : at + len(found)] = found
             at += len(found)
-        return {name: values[:, place] for place, (name, *_) in enumerate(element.properties)}
+        columns = {name: values[:, place] for place, (name, *_) in enumerate(element.properties)}
+        return columns if thinning is None else thinning.of(columns)
 
     def first_of_lists(self, element):
         found, at = np.full(element.count, -1, np.int64), 0

@@ -1,37 +1,26 @@
 """PTX: text, one or several scans one after another, each a header and its points column by column."""
 
 import re
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from ...errors import Cancelled, ScanError
-from ...messages import Message, of_scan, one_line
-from ...scan.coherence import line_length
+from ...messages import Message, of_scan
 from ...scan.limits import MOST_PIXELS
 from ..memory import require_memory
 from .angle import gridded_by_angle
 from .cloud import Place
-from .colors import scaled_colors
 from .formats import Format
-from .grid import BYTES_PER_PIXEL, UnusableScan, finish_grid, with_problems
+from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_grid, with_problems
 from .options import ANGLE, AS_IT_IS
 from .poses import ptx_pose
+from .ptx_points import END_MARKS, PointLines, number_of, shortened, shown
 from .text_lines import TextLines
 
 _SHORTEST_LINE = len("0 0 0 0\n")
-_WIDTHS = (4, 7, 10)
-"""`x y z i`, with `r g b`, with a normal after them."""
-
-_LINES = 1 << 14
-"""Lines that are parsed at once where the fast parser cannot read them."""
-
-_LONGEST_QUOTE = 40
 _COUNT = re.compile(r"\d{1,18}(\.0*)?")
-_NO_NUMBER = re.compile(r"[-+]?(?:nan\([^)\s]*\)|\d\.#[A-Za-z]+\d*)", re.IGNORECASE)
-"""What Windows programs print for NaN and infinity: -nan(ind), 1.#QNAN."""
-
-END_MARKS = "\x1a\x00 \t"
 
 
 def read_ptx(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -108,7 +97,7 @@ def _stored_scans(file, path, options, progress, cancelled):
             rest = Message(
                 "line {line}: what follows its last scan is not a scan and was left out: '{found}'",
                 line=lines.number,
-                found=_shortened(line),
+                found=shortened(line),
             )
             break
         try:
@@ -128,7 +117,7 @@ def _stored_scans(file, path, options, progress, cancelled):
         }
         if np.array_equal(matrix[3, :3], position):
             scan["places"].pop("position", None)
-        scan["options"] = options
+        scan["options"] = replace(options, step=scan.pop("step"))
         scan["warnings"] = notes + [
             Message("scan '{scan}': {note}", scan=scan["name"], note=note) for note in scan["warnings"]
         ]
@@ -172,12 +161,14 @@ def _read_scan(lines, first, *, after, options):
         )
         raise _CutShort(announced)
     count = min(count, room)
+    step = 1 if options.grid == ANGLE else options.step
     require_memory(
-        count * BYTES_PER_PIXEL,
+        count // step**2 * BYTES_PER_PIXEL,
         Message("{file}: {columns} columns x {rows} rows", file=lines.path.name, columns=columns, rows=rows),
+        way=LIGHTER,
         error=ScanError,
     )
-    body = _Body(lines, count)
+    body = PointLines(lines, count, (rows, columns), step)
     found = body.read()
     notes = body.notes()
     if found < columns * rows:
@@ -192,148 +183,8 @@ def _read_scan(lines, first, *, after, options):
         if after or found < 2 * rows:
             raise _CutShort(ended)
         notes.append(Message("{reason}; its complete columns were read", reason=ended.message))
-    return {**_in_lines(body, found, columns, rows, notes), "placed": (position, axes, matrix), "warnings": notes}
-
-
-def _in_lines(body, found, columns, rows, notes):
-    """The body as grids: one line of the file after the other is a column, unless its points tell otherwise."""
-    length = rows
-    if rows != columns:
-        x, y, z = body.points[:found].T
-        length = line_length(body.points[:found], (x != 0) | (y != 0) | (z != 0), (rows, columns))
-    if length != rows:
-        notes.append(
-            Message(
-                "its points follow each other in lines of {length}, not of {rows} as its header says; they were read "
-                "that way",
-                length=length,
-                rows=rows,
-            )
-        )
-    lines = found // length
-
-    def grid(values):
-        return (
-            None
-            if values is None
-            else values[: lines * length].reshape(lines, length, *values.shape[1:]).swapaxes(0, 1)
-        )
-
-    return {
-        "cells": partial(_cells, found, lines, length),
-        "points": grid(body.points),
-        "reflectance": grid(body.intensity),
-        "valid": np.ones((length, lines), bool),
-        "color": grid(body.color_in_8_bits(notes)),
-    }
-
-
-def _cells(found, lines, length):
-    """(N,) pixel of each line of points of the file, in a grid of so many columns; -1 behind the last whole one."""
-    cells = np.full(found, -1)
-    cells[: lines * length] = np.arange(length * lines).reshape(length, lines).T.ravel()
-    return cells
-
-
-class _Body:
-    """The lines of points of one scan, in the order of the file."""
-
-    def __init__(self, lines, count):
-        self._lines = lines
-        self.points = np.zeros((count, 3))
-        self.intensity = np.zeros(count, np.float32)
-        self._color = None
-        self._no_color, self._colorless = False, 0
-
-    def read(self):
-        """Read as many points as were announced, or as there are; return how many."""
-        count, at = len(self.points), 0
-        while at < count:
-            values = self._lines.take_numbers(count - at, _WIDTHS)
-            plain = values is not None
-            if not plain:
-                first = self._lines.number + 1
-                chunk = self._lines.take(min(count - at, _LINES))
-                if not chunk:
-                    break
-                if not any(line and not line.isspace() for line in chunk):
-                    continue
-                values = self._parsed(chunk, first)
-            self._keep(values, at, plain)
-            at += len(values)
-        return at
-
-    def notes(self):
-        """What is to be said about this body."""
-        notes = []
-        if self._color is not None and self._colorless:
-            notes.append(
-                Message("{count:,} points have no color although others do; they are black", count=self._colorless)
-            )
-        return notes
-
-    def color_in_8_bits(self, notes):
-        """(N, 3) uint8 of the colors, None where there are none; what is to be said of them is added to the notes."""
-        if self._color is None:
-            return None
-        # Values of 8 bits are kept as they are, unless they are all zeros and ones.
-        if self._color.dtype == np.uint8 and self._color.max() > 1:
-            return self._color
-        return scaled_colors(self._color, None, lambda template, **values: notes.append(Message(template, **values)))
-
-    def _keep(self, values, at, plain):
-        """Keep values as the points from ``at`` on; plain ones are all numbers."""
-        here = slice(at, at + len(values))
-        self.points[here] = values[:, :3]
-        with np.errstate(over="ignore", invalid="ignore"):
-            self.intensity[here] = values[:, 3]
-        colored = values.shape[1] > 4
-        if plain and colored and self._color is not None and self._color.dtype == np.uint8:
-            with np.errstate(invalid="ignore"):
-                self._color[here] = values[:, 4:7]
-            if np.array_equal(self._color[here], values[:, 4:7]):
-                return
-        color = values[:, 4:7] if colored else np.full((len(values), 3), np.nan)
-        given = ~np.isnan(color).all(axis=-1)
-        self._colorless += np.count_nonzero((values[~given, :3] != 0).any(axis=-1))
-        if not given.any():
-            return
-        color = color[given]
-        if self._color is None:
-            self._color = np.zeros((len(self.points), 3), np.uint8)
-        if self._color.dtype == np.uint8 and not ((color >= 0) & (color <= 255) & (color == np.round(color))).all():
-            self._color = self._color.astype(np.float32)
-        with np.errstate(over="ignore", invalid="ignore"):
-            self._color[here][given] = color
-
-    def _parsed(self, chunk, first):
-        """(n, 4, 7 or 10) float64 of the lines that are not blank; NaN for colors that a line does not have."""
-        if any("#" in line or "(" in line for line in chunk):
-            chunk = [_NO_NUMBER.sub("nan", line) for line in chunk]
-        try:
-            values = np.loadtxt(chunk, np.float64, comments=None, ndmin=2)
-        except ValueError:
-            return self._parsed_one_by_one(chunk, first)
-        return values if values.shape[1] in _WIDTHS else self._parsed_one_by_one(chunk, first)
-
-    def _parsed_one_by_one(self, chunk, first):
-        """Slower: for lines that differ in length, and to find the one that is wrong."""
-        parsed = []
-        for number, line in enumerate(chunk, first):
-            words = line.strip(END_MARKS).split()
-            if not words:
-                continue
-            try:
-                if len(words) not in _WIDTHS:
-                    raise self._lines.error("expected 4 or 7 values, found {found}", number=number, found=_found(words))
-                values = [_number(self._lines, word, number) for word in words]
-            except ScanError:
-                # The last line of the file was cut off, not written wrongly.
-                if number == self._lines.number and self._lines.at_end():
-                    break
-                raise
-            parsed.append(values + [np.nan] * (max(_WIDTHS) - len(values)))
-        return np.array(parsed, np.float64).reshape(-1, max(_WIDTHS))
+    grids = body.grids(found, notes)
+    return {**grids, "step": options.step // step, "placed": (position, axes, matrix), "warnings": notes}
 
 
 def _header_line(lines, what):
@@ -346,7 +197,7 @@ def _header_line(lines, what):
 def _count(lines, line, what, after):
     if _COUNT.fullmatch(line) and (value := int(line.partition(".")[0])) > 0:
         return value
-    found = _shortened(line)
+    found = shortened(line)
     if after:
         raise lines.error(
             "expected the end of the file or the number of columns of the next scan, found '{found}'", found=found
@@ -358,26 +209,9 @@ def _numbers(lines, count, what):
     words = _header_line(lines, what).split()
     if len(words) != count:
         raise lines.error(
-            "expected {what} ({count} numbers), found {found}", what=what, count=count, found=_found(words)
+            "expected {what} ({count} numbers), found {found}", what=what, count=count, found=shown(words)
         )
-    return np.array([_number(lines, word, lines.number) for word in words])
-
-
-def _number(lines, word, number):
-    try:
-        if "_" in word:
-            raise ValueError
-        return float(word)
-    except ValueError:
-        raise lines.error("expected a number, found '{found}'", number=number, found=_shortened(word)) from None
-
-
-def _found(words):
-    return f"{len(words)}: '{_shortened(' '.join(words))}'" if len(words) < 4 else str(len(words))
-
-
-def _shortened(text):
-    return one_line(text, _LONGEST_QUOTE)
+    return np.array([number_of(lines, word, lines.number) for word in words])
 
 
 def _is_ptx(start):

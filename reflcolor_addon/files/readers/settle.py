@@ -12,6 +12,7 @@ from ...scan.grid_health import coarser, compacted
 from ...scan.orientation import AS_STORED, Z_UP, frame_with_up, infer_turn, up_of_camera
 from ...scan.origin import better_origin, repeated_point
 from ...scan.units import MILLIMETRE, counts_millimeters, scale_of_pose
+from .grid_memory import strips
 from .grid_order import GridOrder
 from .options import AUTO, UNITS
 
@@ -173,7 +174,8 @@ class Settled:
         if kind == "matrix":
             # The points are already transformed by the pose: they are transformed back.
             inverse = np.linalg.inv(self.pose[:3, :3])
-            self.points[:] = (self.points - self.pose[:3, 3]) @ inverse.T
+            for rows in strips(self.valid.shape):
+                self.points[rows] = (self.points[rows] - self.pose[:3, 3]) @ inverse.T
             self._warn("its points are in world coordinates already; its pose is not applied to them again")
             return
         self._move(origin.place)
@@ -200,7 +202,8 @@ class Settled:
         up = self._up()
         frame = frame_with_up(up)
         if not np.array_equal(frame, np.eye(3)):
-            self.points[:] = self.points @ frame.T
+            for rows in strips(self.valid.shape):
+                self.points[rows] = self.points[rows] @ frame.T
             self.pose = self.pose.copy()
             self.pose[:3, :3] = self.pose[:3, :3] @ frame.T
         turn = infer_turn(self.points, self.valid)

@@ -1,5 +1,7 @@
 """Lines of a large text file, in blocks, with their numbers."""
 
+import numpy as np
+
 from ...errors import Cancelled, ScanError
 from ...messages import Message
 from ...native import library
@@ -34,6 +36,7 @@ class TextLines:
         # The current block: lines that end in LF, and where the next one begins.
         self._data, self._at = b"", 0
         self._rest, self._ended = b"", False
+        self._room = None
 
     def next_line(self):
         """The next line that is not blank, stripped; None at the end of the file."""
@@ -69,7 +72,7 @@ class TextLines:
         Returns
         -------
         (n, width) float64 or None
-            None as well where the kernel is missing, or at the end.
+            Overwritten by the next ones. None as well where the kernel is missing, or at the end.
         """
         if not library.available() or not self._filled():
             return None
@@ -80,7 +83,10 @@ class TextLines:
             width, start = len(self._data[start:end].split()), end + 1
         if width not in widths:
             return None
-        values, lines, end = read_numbers(self._data, self._at, limit, width)
+        if self._room is None:
+            # No number is shorter than a digit and what parts it from the next.
+            self._room = np.empty(_BLOCK // 2)
+        values, lines, end = read_numbers(self._data, self._at, limit, width, self._room)
         self._hand_out(end, lines)
         return values if lines else None
 

@@ -7,7 +7,8 @@ from ...messages import Message
 from ..atomic import written_atomically
 from ..gate import opened
 from ..readers.options import AS_IT_IS
-from ..readers.ptx import END_MARKS, each_scan
+from ..readers.ptx import each_scan
+from ..readers.ptx_points import END_MARKS
 from ..readers.text_lines import TextLines
 from .point_colors import colors_of_points
 
