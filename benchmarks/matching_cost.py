@@ -1,5 +1,9 @@
 """Time and peak memory of matching one scan of 760 x 1135 with one photo of 12 megapixels, in a process of its own.
 
+    python -m benchmarks.matching_cost BASE [ROUNDS]
+
+prints them for all cases beside an older build, of which BASE is a checkout; the two take turns, figures are medians.
+
     python -m benchmarks.matching_cost SCAN PHOTO MODE
 
 SCAN is a scan of geodesic_cases.SCANS, enlarged; PHOTO any real scan, whose colors are the photo, or "warped" for the
@@ -19,6 +23,7 @@ import numpy as np
 
 from benchmarks import geodesic_cases, matching_pairs, real_scans
 from benchmarks.geodesic_memory import status
+from benchmarks.geodesic_tables import ROOT, apart, head, row
 from reflcolor_addon import Settings
 from reflcolor_addon.matching import match_photos
 
@@ -42,7 +47,40 @@ def enlarged_photo(scan_name, photo_name):
     return cv2.resize(color, (round(width * larger), round(height * larger)), interpolation=cv2.INTER_CUBIC)
 
 
+def beside(base, rounds):
+    """Print the cost of every case, verified, beside that of an older build."""
+    cells = (
+        "seconds before",
+        "now",
+        "ratio",
+        "processor before",
+        "now",
+        "ratio",
+        "MB before",
+        "now",
+        "said before",
+        "now",
+    )
+    head(f"760 x 1135 and 12 megapixels, medians of {rounds} runs", "scan, photo", *cells)
+    for case in CASES:
+        runs = [[], []]
+        for _ in range(rounds):
+            for root, found in zip((base, ROOT), runs, strict=True):
+                found.append(apart(*case, "verified", module="benchmarks.matching_cost", root=root))
+        figures = []
+        for key, digits in (("seconds", 1), ("processor", 1), ("bytes", 0)):
+            before, now = (np.median([run[key] for run in found]) for found in runs)
+            unit = 1e6 if key == "bytes" else 1
+            figures += [f"{value / unit:.{digits}f}" for value in (before, now)]
+            if key != "bytes":
+                figures.append(f"{now / before:.2f}")
+        row(", ".join(case), *figures, *(found[0]["note"] for found in runs))
+
+
 def main():
+    if len(sys.argv) < 4:
+        beside(Path(sys.argv[1]).resolve(strict=True), int(sys.argv[2]) if len(sys.argv) > 2 else 3)
+        return
     scan_name, photo_name, mode = sys.argv[1:]
     scan, photo = geodesic_cases.whole_scan(scan_name, 1), enlarged_photo(scan_name, photo_name)
     Path("/proc/self/clear_refs").write_text("5")

@@ -1,6 +1,7 @@
 """The number of threads that the work may use."""
 
 import os
+from concurrent.futures import ThreadPoolExecutor
 
 _limit = None
 
@@ -17,6 +18,24 @@ def limit_threads(count):
 
     _limit = max(1, count)
     cv2.setNumThreads(_limit)
+
+
+def in_threads(function, items):
+    """Yield what ``function`` returns for each of ``items``, in their order, computed in as many threads as allowed.
+
+    What was not begun when the caller ends early is not begun any more.
+    """
+    if thread_count() == 1:
+        yield from map(function, items)
+        return
+    with ThreadPoolExecutor(thread_count(), "reflcolor") as pool:
+        futures = [pool.submit(function, item) for item in items]
+        try:
+            for future in futures:
+                yield future.result()
+        finally:
+            for future in futures:
+                future.cancel()
 
 
 def _processors():

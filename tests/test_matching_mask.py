@@ -69,6 +69,18 @@ def test_holes_in_a_scan_are_no_evidence_for_noise(room, camera, noise):
     assert not evidence(image, noise, camera).accepted
 
 
+def test_a_tile_scores_highest_where_its_own_piece_was_moved_to(room, camera, noise):
+    image = image_of(room)
+    seen = Sighting.of(image, noise, camera)
+    moved = replace(seen, features=np.roll(seen.own, (3, -2), (0, 1)))
+    found = surfaces(image, Tiles.of(image, 40), None, camera, 8, moved)
+    best = found.scores.reshape(len(found.scores), -1).argmax(axis=1)
+    row, col = np.divmod(best, 17)
+    inner = (found.middles > 24).all(axis=1) & (found.middles < np.array(image.shape) - 24).all(axis=1)
+    assert inner.sum() >= 6
+    np.testing.assert_array_equal(np.column_stack([row, col])[inner], np.broadcast_to([11, 6], (inner.sum(), 2)))
+
+
 def test_an_isolated_hole_is_closed_by_its_neighbors(room):
     valid = room.valid.copy()
     valid[50, 60] = False

@@ -53,3 +53,12 @@ def test_the_candidate_of_zeros_changes_nothing():
     np.testing.assert_allclose(
         homography.moved(np.zeros(8), 1.0).project(places)[0], homography.project(places)[0], rtol=1e-5
     )
+
+
+def test_a_candidate_shifts_the_corners_of_the_grid_by_hundredths_of_its_longer_side():
+    homography = GridHomography(np.eye(3), (100, 200), 400, 300)
+    corners = np.array([[0.0, 0], [200, 0], [200, 100], [0, 100]])
+    shifts = np.array([[1.0, -2], [3, 0.5], [-1, 4], [2, 2]])
+    (together,) = homography.projections(shifts.reshape(1, 8), corners, 1.0)
+    np.testing.assert_allclose(together, corners + 2 * shifts, atol=1e-9)
+    np.testing.assert_array_equal(homography.moved(shifts.ravel(), 1.0).project(corners)[0], together)

@@ -7,9 +7,9 @@ import numpy as np
 import painted_room
 import pytest
 
-from reflcolor_addon import Cancelled, ImageError, Scan, Seeds, SeedsError, Settings
+from reflcolor_addon import Cancelled, ImageError, Scan, Seeds, SeedsError, Settings, threads
 from reflcolor_addon.matching import draw_matches, match_photos, match_seeds, match_site
-from reflcolor_addon.matching.registration import location, registration, sphere_map
+from reflcolor_addon.matching.registration import location, registration
 from reflcolor_addon.matching.registration.registration import Registration
 
 FEW = Settings(slic_segments=150)
@@ -85,14 +85,14 @@ def test_seeds_lie_on_pixels_with_a_return_one_per_superpixel(matching, room):
 
 @pytest.mark.slow
 def test_the_same_input_gives_the_same_seeds_whatever_the_thread_count(monkeypatch, matching, room, turned):
-    threads = cv2.getNumThreads()
-    other = 1 if sphere_map.thread_count() > 1 else 2
-    monkeypatch.setattr(sphere_map, "thread_count", lambda: other)
+    of_opencv = cv2.getNumThreads()
+    other = 1 if threads.thread_count() > 1 else 2
+    monkeypatch.setattr(threads, "thread_count", lambda: other)
     try:
         cv2.setNumThreads(1)
         again = match_seeds(room, [turned], FEW)
     finally:
-        cv2.setNumThreads(threads)
+        cv2.setNumThreads(of_opencv)
     for field in ("rows", "cols", "rgb", "photo_xy", "confidence"):
         np.testing.assert_array_equal(getattr(again, field), getattr(matching.seeds, field))
     assert again.reason == matching.seeds.reason

@@ -86,11 +86,13 @@ class Camera:
         """Return (K, N, 2): where K candidates see N points; ``scale`` is the meters of a unit shift."""
         change = self._change(candidates, scale)
         rotation = _rotations(change[:, :3]) @ self.rotation
-        local = np.einsum("kij,knj->kni", rotation, points[None] - (self.center + change[:, 3:6])[:, None])
-        plane = local[..., :2] / np.where(local[..., 2] > 1e-3, local[..., 2], np.nan)[..., None]
-        bent = (self.distortion + change[:, 7])[:, None] * np.minimum((plane**2).sum(axis=-1), _WIDEST_SQUARED)
-        focal = self.focal_px * np.exp(change[:, 6])
-        return plane * (focal[:, None] * (1 + bent))[..., None] + [self.width / 2, self.height / 2]
+        shift = rotation @ (self.center + change[:, 3:6])[..., None]
+        right, down, depth = np.moveaxis(rotation @ points.T - shift, 1, 0)
+        ahead = np.where(depth > 1e-3, depth, np.nan)
+        x, y = right / ahead, down / ahead
+        bent = (self.distortion + change[:, 7])[:, None] * np.minimum(x * x + y * y, _WIDEST_SQUARED)
+        gain = (self.focal_px * np.exp(change[:, 6]))[:, None] * (1 + bent)
+        return np.moveaxis(np.stack([x * gain + self.width / 2, y * gain + self.height / 2]), 0, -1)
 
     def moved(self, candidate, scale):
         """Return the camera of one candidate."""
@@ -153,17 +155,31 @@ class GridHomography:
 
     def projections(self, candidates, grid_xy, scale):
         """Return (K, N, 2): where K candidates (shifts of the grid's corners) put N places of the grid."""
-        return np.stack([self.moved(candidate, scale).project(grid_xy)[0] for candidate in candidates])
+        matrices = self.matrix @ self._changes(candidates)
+        sites = np.column_stack([grid_xy, np.ones(len(grid_xy))])
+        x, y, weight = np.moveaxis(matrices @ sites.T, 1, 0)
+        sense = np.where(matrices[:, 2, 2] < 0, -1, 1)[:, None]
+        weight = np.where(weight * sense > 1e-9, weight, np.nan)
+        return np.moveaxis(np.stack([x / weight, y / weight]), 0, -1)
 
     def moved(self, candidate, scale):
         """Return the homography whose images of the grid's corners are shifted by hundredths of the grid's size."""
-        import cv2
+        matrix = self.matrix @ self._changes(candidate[None])[0]
+        return GridHomography(matrix, self.grid_shape, self.width, self.height)
 
+    def _changes(self, candidates):
+        """(K, 3, 3): the homographies of the grid that shift its corners as candidates do."""
         height, width = self.grid_shape
-        corners = np.array([[0, 0], [width, 0], [width, height], [0, height]], np.float32)
-        shifted = corners + candidate.reshape(4, 2).astype(np.float32) * (0.01 * max(height, width))
-        change = cv2.getPerspectiveTransform(corners, shifted)
-        return GridHomography(self.matrix @ change, self.grid_shape, self.width, self.height)
+        moved = candidates.reshape(-1, 4, 2) * (0.01 * max(height, width))
+        moved += [[0, 0], [width, 0], [width, height], [0, height]]
+        (x0, x1, x2, x3), (y0, y1, y2, y3) = np.moveaxis(moved, 0, -1).swapaxes(0, 1)
+        # A square's homography to a quadrangle (Heckbert 1989), in closed form: the same bits everywhere.
+        bent_x, bent_y = x0 - x1 + x2 - x3, y0 - y1 + y2 - y3
+        area = (x1 - x2) * (y3 - y2) - (x3 - x2) * (y1 - y2)
+        g = (bent_x * (y3 - y2) - (x3 - x2) * bent_y) / area
+        h = ((x1 - x2) * bent_y - bent_x * (y1 - y2)) / area
+        rows = [[x1 - x0 + g * x1, x3 - x0 + h * x3, x0], [y1 - y0 + g * y1, y3 - y0 + h * y3, y0], [g, h, 1 + 0 * g]]
+        return np.moveaxis(np.array(rows), -1, 0) / [width, height, 1]
 
 
 def within(model, xy):

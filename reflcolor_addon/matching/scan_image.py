@@ -62,12 +62,17 @@ class ScanImage:
         else be a large part of the scan, and a few tiles prove little.
     range_weight : float
         See `edges.scan_features`.
+    angles : GridAngles, optional
+        Of the scan, where they are known already.
 
     Attributes
     ----------
     shape : (h, w)
     pixels_per_measurement : float
         1 where the image is no finer than the grid.
+    stretch : float
+        How much longer one way than the other the part of the image is that one measurement fills; 1 where it is square
+        or not larger than a pixel.
     rows, cols : (h,) and (w,) int
         Row and column of the scan's grid that a pixel shows.
     reflectance : (h, w) float32
@@ -79,10 +84,10 @@ class ScanImage:
     features : (h, w, 3) float32
     """
 
-    def __init__(self, scan, tone_image, step_deg, range_weight=RANGE_WEIGHT):
+    def __init__(self, scan, tone_image, step_deg, range_weight=RANGE_WEIGHT, angles=None):
         height, width = scan.shape
         vertical, horizontal = pixel_steps(scan)
-        self._angles = GridAngles.of(scan)
+        self._angles = angles or GridAngles.of(scan)
         tall = height * vertical
         if self._angles.uneven:
             tall = abs(self._angles.elevation_deg[0] - self._angles.elevation_deg[-1]) + vertical
@@ -93,7 +98,8 @@ class ScanImage:
         self.step_deg = max(step_deg, finest)
         h, w = max(1, round(tall / self.step_deg)), max(1, round(width * horizontal / self.step_deg))
         self.shape = (h, w)
-        self.pixels_per_measurement = max(1.0, h / height) * max(1.0, w / width)
+        finer = max(1.0, h / height), max(1.0, w / width)
+        self.pixels_per_measurement, self.stretch = finer[0] * finer[1], max(finer) / min(finer)
         # Where a pixel lies in the grid, counted from the middle of the first one.
         self._at_row, measured = self._row_places(h)
         self._at_col = (np.arange(w) + 0.5) * width / w - 0.5
@@ -112,6 +118,13 @@ class ScanImage:
         self.grid_xy = np.stack([x, y], axis=-1)
         self._range_weight = range_weight
         self._scan = scan
+        self._made = {}
+
+    def once(self, key, make):
+        """Return what ``make()`` returned the first time for this key."""
+        if key not in self._made:
+            self._made[key] = make()
+        return self._made[key]
 
     def _row_places(self, h):
         """The place in the grid of each of ``h`` rows, and whether it is near enough to a row that was measured."""
@@ -153,6 +166,10 @@ class ScanImage:
         return cv2.resize(image, (w, h), interpolation=cv2.INTER_LINEAR)
 
     @cached_property
+    def _grid_directions(self):
+        return self._angles.at(self._at_row, self._at_col)
+
+    @cached_property
     def features(self):
         return scan_features(self.reflectance, self.range, self.valid, range_weight=self._range_weight)
 
@@ -169,7 +186,7 @@ class ScanImage:
             between = cv2.remap(grid, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
             return between / np.maximum(np.linalg.norm(between, axis=-1, keepdims=True), 1e-12)
         measured = self.points / np.maximum(self.range, 1e-12)[..., None]
-        return np.where(self.valid[..., None], measured, self._angles.at(self._at_row, self._at_col))
+        return np.where(self.valid[..., None], measured, self._grid_directions)
 
     @cached_property
     def surface(self):
@@ -185,8 +202,7 @@ class ScanImage:
 
         Of the grid as a whole: neither a hole nor a jump of the range shows in it, but for the distance.
         """
-        directions = self._angles.at(self._at_row, self._at_col)
-        return np.stack(_differences(directions)) * np.linalg.norm(self.surface, axis=-1)[..., None]
+        return np.stack(_differences(self._grid_directions)) * np.linalg.norm(self.surface, axis=-1)[..., None]
 
     @cached_property
     def grid_turns(self):

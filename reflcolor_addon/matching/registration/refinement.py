@@ -76,12 +76,11 @@ def fitted(surfaces, model, free, *, blur, spread, rng, pairs=None):
     reach = int(3 * blur) + 1
     stacked = np.pad(surfaces.scores, ((0, 0), (reach, reach), (reach, reach)), mode="edge")
     blurred = cv2.GaussianBlur(stacked.reshape(-1, stacked.shape[2]), (2 * reach + 1, 2 * reach + 1), blur)
-    scores = blurred.reshape(stacked.shape)[:, reach:-reach, reach:-reach]
+    scores = np.ascontiguousarray(blurred.reshape(stacked.shape)[:, reach:-reach, reach:-reach])
     count = 8 if model.kind == "homography" else len(model.UNITS)
 
     def value(candidates):
-        shifted = model.projections(candidates, surfaces.sites, surfaces.scale) - surfaces.places
-        shift = np.einsum("nij,knj->kni", surfaces.inverse, np.nan_to_num(shifted, nan=1e6))
+        shift = surfaces.shifts(model.projections(candidates, surfaces.sites, surfaces.scale))
         worth = looked_up(scores, shift).mean(axis=1) - PENALTY * (candidates**2).sum(axis=1)
         if pairs is not None:
             worth -= pairs.weight * pairs.doubt(model, candidates, surfaces.scale) / len(scores)
@@ -155,14 +154,16 @@ def _tops(scores):
 
 
 def looked_up(scores, shift):
-    """Return the (K, N) scores at (K, N, 2) shifts (right, down), bilinearly."""
-    radius = scores.shape[1] // 2
-    place = shift + radius
-    inside = ((place >= 0) & (place <= 2 * radius)).all(axis=-1)
-    place = np.clip(place, 0, 2 * radius - 1e-6)
-    col, row = np.moveaxis(place.astype(int), -1, 0)
-    right, down = np.moveaxis(place - place.astype(int), -1, 0)
-    tile = np.arange(len(scores))[None]
-    top = scores[tile, row, col] * (1 - right) + scores[tile, row, col + 1] * right
-    bottom = scores[tile, row + 1, col] * (1 - right) + scores[tile, row + 1, col + 1] * right
+    """Return the (K, N) scores at (K, N, 2) shifts (right, down), bilinearly; low where beyond the surfaces or NaN."""
+    count, window = scores.shape[:2]
+    places = np.moveaxis(shift, -1, 0) + window // 2
+    inside = ((places >= 0) & (places <= window - 1)).all(axis=0)
+    places = np.where(inside, np.minimum(places, window - 1 - 1e-6), 0)
+    whole = places.astype(int)
+    right, down = places - whole
+    # Counted through all surfaces, one after the other.
+    at = (np.arange(count) * window + whole[1]) * window + whole[0]
+    every = scores.ravel()
+    top = every[at] * (1 - right) + every[at + 1] * right
+    bottom = every[at + window] * (1 - right) + every[at + window + 1] * right
     return np.where(inside, top * (1 - down) + bottom * down, _OUTSIDE)

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from ...messages import Message
-from ..grid_angles import closed
+from ..grid_angles import GridAngles, closed
 from ..scan_image import ScanImage, pixel_steps, reflectance_image
 from . import features
 from .fitting import COARSE, FINE, MIDDLE, beside, finely, refined
@@ -43,6 +43,8 @@ _LEAST_CONTRAST = 8
 # A refined camera fits picked pairs as long as it is no farther off at them than by this factor.
 _FITTING = 1.3
 _LEAST_PIXELS = 400
+# From this factor on measurements are stretched one way.
+_STRETCHED = 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +113,10 @@ class ScanViews:
         return None
 
     @cached_property
+    def _angles(self):
+        return GridAngles.of(self.closed)
+
+    @cached_property
     def ranks(self):
         """The reflectance as an image, see `scan_image.reflectance_image`."""
         return reflectance_image(self.closed, "ranks")
@@ -129,13 +135,23 @@ class ScanViews:
         """How many pixels of the finest image stand for one measurement."""
         return self.image(FINE[0]).pixels_per_measurement
 
+    @property
+    def stretched(self):
+        """Whether measurements are much farther apart one way than the other, as the rows of a spinning lidar are.
+
+        Tiles that are stretched so find a camera, but fitted further they move it away from where it should be.
+        """
+        return self.image(FINE[0]).stretch > _STRETCHED
+
     def image(self, share):
         """The `ScanImage` whose pixels are ``share`` of the search's."""
-        return self.once(("image", share), lambda: ScanImage(self.closed, self.ranks, self.step_deg * share))
+        return self.once(
+            ("image", share), lambda: ScanImage(self.closed, self.ranks, self.step_deg * share, angles=self._angles)
+        )
 
     def tiles(self, share, size):
         """Tiles on that image."""
-        return self.once(("tiles", share, size), lambda: Tiles.of(self.image(share), size))
+        return Tiles.of(self.image(share), size)
 
     def once(self, key, make):
         """Return what ``make()`` returned the first time for this key."""

@@ -1,7 +1,11 @@
 """Where a photo may have been taken from: every direction at once, for a list of focal lengths and places."""
 
+from functools import partial
+from itertools import chain, product
+
 import numpy as np
 
+from ...threads import in_threads
 from ..scan_image import pixel_steps
 from .sphere_map import PhotoMaps, SphereMap
 
@@ -82,22 +86,14 @@ class Search:
             Called now and then; may raise to end the work.
         """
         guesses = _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], 1, _FOCALS, _PITCHES, 3, step))
-        tried = []
-        for guess in guesses[:_SHARPENED]:
-            step()
-            focals = [guess.focal * factor for factor in (0.92, 1.0, 1.09)]
-            tried += self._near(guess, focals, [-4.0, 0.0, 4.0], count=2)
+        tried = self._around(guesses[:_SHARPENED], (0.92, 1.0, 1.09), (-4.0, 0.0, 4.0), 2, step)
         return _unlike_ones([*tried, *guesses])
 
     def from_aside(self, step=lambda: None):
         """Return `Guess`es of a photo taken from beside the scanner; see `from_scanner`."""
         places = viewpoints(self._views.scan)
-        guesses = self._everywhere(places, _COARSER, _ASIDE_FOCALS, _ASIDE_PITCHES, 2, step)
-        looked_at = []
-        for guess in _unlike_ones(guesses)[:_LOOKED_AT]:
-            step()
-            looked_at += self._near(guess, [guess.focal * factor for factor in (0.93, 1.0, 1.07)], [0.0])
-        return _unlike_ones(looked_at)
+        guesses = _unlike_ones(self._everywhere(places, _COARSER, _ASIDE_FOCALS, _ASIDE_PITCHES, 2, step))
+        return _unlike_ones(self._around(guesses[:_LOOKED_AT], (0.93, 1.0, 1.07), (0.0,), 1, step))
 
     def roughly(self, focals, coarser, step=lambda: None):
         """Return `Guess`es of a level photo taken from about the scanner's place, on coarser maps, best first."""
@@ -110,12 +106,24 @@ class Search:
             maps = self._maps(focal, coarser)
             if maps.step_deg not in spheres:
                 step()
-                spheres = {maps.step_deg: [self._whole_sphere(place, maps.step_deg) for place in places]}
+                whole_sphere = partial(self._whole_sphere, step_deg=maps.step_deg)
+                spheres = {maps.step_deg: list(in_threads(whole_sphere, places))}
             step()
-            for pitch in pitches:
-                for sphere in spheres[maps.step_deg]:
-                    guesses += sphere.peaks(maps, (focal, pitch, 0.0), count)
+            tried = [
+                partial(sphere.peaks, maps, (focal, pitch, 0.0), count)
+                for pitch, sphere in product(pitches, spheres[maps.step_deg])
+            ]
+            guesses += chain.from_iterable(in_threads(_called, tried))
         return guesses
+
+    def _around(self, guesses, factors, rolls, count, step):
+        """Guesses near these, with focal lengths changed by factors, and rolled."""
+        found = []
+        near = partial(self._near, factors=factors, rolls=rolls, count=count)
+        for some in in_threads(near, guesses):
+            step()
+            found += some
+        return found
 
     def _maps(self, focal, coarser=1):
         """The photo's maps, of larger pixels for a photo that is much wider than the scan."""
@@ -131,13 +139,14 @@ class Search:
 
     def _sphere(self, center, step_deg, window=None):
         image = self._views.image(0.5)
-        return SphereMap(image.surface[image.valid], image.reflectance[image.valid], center, step_deg, window)
+        points, tone = image.once("returns", lambda: (image.surface[image.valid], image.reflectance[image.valid]))
+        return SphereMap(points, tone, center, step_deg, window)
 
-    def _near(self, guess, focals, rolls, count=1):
+    def _near(self, guess, factors, rolls, count):
         """Guesses from the same place in nearly the same direction."""
         # The pitch of the map need be right only as far as it bends the map: then many guesses share one.
         pitch = float(np.clip(round(guess.pitch_deg / 6) * 6, -60, 60))
-        keys = [(_rounded(focal), pitch, roll) for focal in focals for roll in rolls]
+        keys = [(_rounded(guess.focal * factor), pitch, roll) for factor, roll in product(factors, rolls)]
         maps = self._maps(guess.focal)
         patch = maps.at(min(keys)[0], pitch, 0.0)
         if patch is None:
@@ -151,6 +160,10 @@ class Search:
         for key in keys:
             found += sphere.peaks(maps, key, count, (_REACH_DEG, _REACH_DEG))
         return found
+
+
+def _called(function):
+    return function()
 
 
 def _rounded(focal):

@@ -6,10 +6,10 @@ overlaps.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ...threads import thread_count
 from ..edges import scan_features
 from ..models import Camera, camera_axes, within
 
@@ -135,18 +135,20 @@ class SphereMap:
             fft.next_fast_len(-(-(own + other) // _ROUND_TO) * _ROUND_TO, real=True)
             for own, other in zip(self.shape, patch.seen.shape, strict=True)
         )
-        if self._spectra[0] != shape:
-            self._spectra = shape, fft.rfft2(self._layers, shape, workers=thread_count())
-        own, other = self._spectra[1], photo_maps.spectra(key, shape)
+        # Several threads may be here.
+        known_shape, own = self._spectra
+        if known_shape != shape:
+            own = _spectra(self._layers, shape)
+            self._spectra = shape, own
+        other = photo_maps.spectra(key, shape)
         # Products, the scan's energy within the photo, and what overlaps; a photo's energy is the same everywhere.
         spectra = np.empty((3, *own.shape[1:]), np.complex64)
         np.einsum("cij,cij->ij", own[:-2], other[:-1], out=spectra[0])
         np.multiply(own[-2:], other[-1], out=spectra[1:])
-        product, energy, overlap = fft.irfft2(spectra, shape, workers=thread_count())
-        enough = overlap > _LEAST_OVERLAP * min(patch.seen.sum(), self._seen)
+        product, energy, overlap = fft.irfft2(spectra, shape)
+        enough = overlap > _LEAST_OVERLAP * min(patch.pixels, self._seen)
         # An array of one number: by a number alone NumPy 1 would multiply in single precision.
-        usual = np.array([[max((patch.features**2).sum(dtype=np.float64) / patch.seen.sum(), 1e-6)]])
-        scores = np.where(enough, product / np.sqrt(np.maximum(energy, 1.0) * usual), -1)
+        scores = np.where(enough, product / np.sqrt(np.maximum(energy, 1.0) * np.array([[patch.usual]])), -1)
         return np.roll(scores, (height, width), (0, 1))
 
 
@@ -159,6 +161,16 @@ class _PhotoMap:
     left: float
     top: float
 
+    @cached_property
+    def pixels(self):
+        """How many are seen."""
+        return self.seen.sum()
+
+    @cached_property
+    def usual(self):
+        """The energy of the features of a pixel that is seen."""
+        return max((self.features**2).sum(dtype=np.float64) / self.pixels, 1e-6)
+
 
 class PhotoMaps:
     """The maps of a photo for focal lengths (in lengths of its longer side), pitches and rolls, made once each."""
@@ -170,24 +182,35 @@ class PhotoMaps:
     def at(self, focal, pitch_deg, roll_deg):
         """Return the map, or None where it would go around too far or shows too little."""
         key = (focal, pitch_deg, roll_deg)
-        if key not in self._maps:
-            if len(self._maps) >= _MOST_MAPS:
-                self._maps.clear()
-            self._maps[key] = _photo_map(self.photo, focal, pitch_deg, roll_deg, self.step_deg)
-        return self._maps[key]
+        return _kept(self._maps, _MOST_MAPS, key, lambda: _photo_map(self.photo, *key, self.step_deg))
 
     def spectra(self, key, shape):
         """Return the conjugate transforms of a map's layers."""
-        from scipy import fft
 
-        if (key, shape) not in self._transformed:
-            if len(self._transformed) >= _MOST_SPECTRA:
-                self._transformed.clear()
+        def transformed():
             patch = self.at(*key)
-            self._transformed[key, shape] = np.conj(
-                fft.rfft2(_layers(patch.features, patch.seen), shape, workers=thread_count())
-            )
-        return self._transformed[key, shape]
+            return np.conj(_spectra(_layers(patch.features, patch.seen), shape))
+
+        return _kept(self._transformed, _MOST_SPECTRA, (key, shape), transformed)
+
+
+def _kept(known, most, key, make):
+    """What ``make`` made for a key, of which at most so many are kept; several threads may ask."""
+    try:
+        return known[key]
+    except KeyError:
+        made = make()
+    if len(known) >= most:
+        known.clear()
+    known[key] = made
+    return made
+
+
+def _spectra(layers, shape):
+    """The transforms of (K, h, w) layers, filled up with zeros to a shape: not spending time on rows of zeros."""
+    from scipy import fft
+
+    return fft.fft(fft.rfft(layers, shape[1]), shape[0], axis=-2, overwrite_x=True)
 
 
 def _layers(features, *others):
@@ -227,6 +250,11 @@ def _drawn(rows, cols, shape, distance, tone):
     return reflectance, range_m, closed
 
 
+def _field(x, y, z):
+    """(h, w, 3): vectors of these, of which ``x`` is (h, w)."""
+    return np.stack(np.broadcast_arrays(x, y, z), axis=-1)
+
+
 def _photo_map(photo, focal, pitch_deg, roll_deg, step_deg):
     width, height = photo.width, photo.height
     focal_px = focal * max(width, height)
@@ -239,13 +267,12 @@ def _photo_map(photo, focal, pitch_deg, roll_deg, step_deg):
         return None
     left, top = np.floor(azimuth.min() / step_deg) * step_deg, np.ceil(elevation.max() / step_deg) * step_deg
     cols, rows = int((azimuth.max() - left) / step_deg) + 1, int((top - elevation.min()) / step_deg) + 1
-    azimuth, elevation = np.meshgrid(
-        np.radians(left + (np.arange(cols) + 0.5) * step_deg), np.radians(top - (np.arange(rows) + 0.5) * step_deg)
-    )
+    azimuth = np.radians(left + (np.arange(cols) + 0.5) * step_deg)
+    elevation = np.radians(top - (np.arange(rows) + 0.5) * step_deg)[:, None]
     (sine, cosine), (rise, level) = ((np.sin(angle), np.cos(angle)) for angle in (azimuth, elevation))
-    rays = np.stack([sine * level, cosine * level, rise], -1)
-    turns = np.stack([[cosine * level, -sine * level, 0 * rise], [sine * rise, cosine * rise, -level]])
-    turns = np.moveaxis(turns, 1, -1) * np.radians(step_deg)
+    rays = _field(sine * level, cosine * level, rise)
+    turns = np.stack([_field(cosine * level, -sine * level, 0.0), _field(sine * rise, cosine * rise, -level)])
+    turns *= np.radians(step_deg)
     camera = Camera(rotation, np.zeros(3), focal_px, 0.0, width, height)
     xy, depth = camera.project(rays)
     seen = (depth > 0) & within(camera, xy)

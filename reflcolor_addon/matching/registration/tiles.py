@@ -3,13 +3,17 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from ..models import within
 from ..photo_image import visible
 
 _LEAST_TILES = 8
+_LEAST_VALID = 0.4
 _LEAST_COVER = 0.5
 _LEAST_SEEN = 64
+# Blocks that are transformed at once: so many stay in a processor's cache.
+_BLOCKS = 64
 # Every sixth pixel is looked at to find which part of the scan a photo shows; and what is taken around that.
 _GLANCE, _MARGIN = 6, 18
 
@@ -29,19 +33,7 @@ class Tiles:
     @classmethod
     def of(cls, scan_image, size):
         """Lay tiles of ``size`` pixels."""
-        height, width = scan_image.shape
-        step = size // 2
-        corners, middles = [], []
-        y, x = np.mgrid[:size, :size] - (size - 1) / 2
-        off_middle = y * y + x * x
-        for row in range(0, height - size + 1, step):
-            for col in range(0, width - size + 1, step):
-                valid = scan_image.valid[row : row + size, col : col + size]
-                if valid.mean() >= 0.4:
-                    nearest = np.argmin(np.where(valid, off_middle, np.inf))
-                    corners.append((row, col))
-                    middles.append((row + nearest // size, col + nearest % size))
-        return cls(size, np.array(corners).reshape(-1, 2), np.array(middles).reshape(-1, 2))
+        return scan_image.once(("tiles", size), lambda: cls(size, *_laid(scan_image.valid, size)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +64,12 @@ class Surfaces:
     @property
     def radius(self):
         return self.scores.shape[1] // 2
+
+    def shifts(self, places):
+        """Return the shifts (..., N, 2), right and down, of tiles that lie at ``places`` (..., N, 2) in the photo."""
+        x, y = np.moveaxis(places - self.places, -1, 0)
+        (right_x, right_y), (down_x, down_y) = np.moveaxis(self.inverse, 0, -1)
+        return np.moveaxis(np.stack([right_x * x + right_y * y, down_x * x + down_y * y]), 0, -1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,6 +116,20 @@ class Sighting:
         corner = np.array([part[0].start, part[1].start])
         own, distance = scan_image.features[part], scan_image.range[part]
         return cls(corner, own, features, seen, distance, sites, xy, jacobian)
+
+
+def _laid(valid, size):
+    """Corners and middles, see `Tiles`, of squares of an image that is ``valid`` (h, w)."""
+    if min(valid.shape) < size:
+        return np.zeros((2, 0, 2), int)
+    step = size // 2
+    squares = sliding_window_view(valid, (size, size))[::step, ::step]
+    corners = np.argwhere(squares.mean(axis=(2, 3)) >= _LEAST_VALID)
+    y, x = np.mgrid[:size, :size] - (size - 1) / 2
+    from_middle_out = np.argsort((y * y + x * x).ravel(), kind="stable")
+    nearest = [from_middle_out[squares[row, col].ravel()[from_middle_out].argmax()] for row, col in corners]
+    corners = corners * step
+    return corners, corners + np.column_stack(np.divmod(np.array(nearest, int), size))
 
 
 def _part(scan_image, model):
@@ -181,23 +193,44 @@ def _tile_sums(image, size):
 def _correlations(own, other, corners, size, radius):
     """Normalized cross-correlation of every tile of ``own`` with ``other`` over all shifts, as deviations; and which
     tiles have anything to say."""
-    import cv2
-
     padded = np.pad(other, ((radius, radius), (radius, radius), (0, 0)))
     energy = _tile_sums((padded**2).sum(axis=-1), size)
     usual = float(np.median(energy[energy > 0])) if (energy > 0).any() else 1.0
     energy = np.maximum(energy, 0.25 * usual)
     strength = _tile_sums((own**2).sum(axis=-1), size)[tuple(corners.T)]
-    window, reach = 2 * radius + 1, size + 2 * radius
-    scores = np.zeros((len(corners), window, window), np.float32)
-    for index in np.flatnonzero(strength > 1e-3):
-        row, col = corners[index]
-        product = cv2.matchTemplate(
-            padded[row : row + reach, col : col + reach], own[row : row + size, col : col + size], cv2.TM_CCORR
-        )
-        scores[index] = product / np.sqrt(energy[row : row + window, col : col + window] * strength[index])
+    strong = strength > 1e-3
+    scores = np.zeros((len(corners), 2 * radius + 1, 2 * radius + 1), np.float32)
+    at, strength = corners[strong], strength[strong][:, None, None]
+    energy = sliding_window_view(energy, scores.shape[1:])[tuple(at.T)]
+    scores[strong] = _products(own, padded, at, size, radius) / np.sqrt(energy * strength)
     deviation = scores.std(axis=(1, 2), keepdims=True)
     return (scores - scores.mean(axis=(1, 2), keepdims=True)) / (deviation + 1e-3), deviation[:, 0, 0] > 1e-4
+
+
+def _products(own, padded, corners, size, radius):
+    """(N, 2 r + 1, 2 r + 1): sums of the products of each tile of ``own`` and what lies under it, for all shifts.
+
+    Tiles half overlap, so that their quarters, which they share, are correlated instead: by FFT, which is the faster
+    the smaller they are.
+    """
+    from scipy import fft
+
+    half, window = size // 2, 2 * radius + 1
+    quarters = corners[:, None] + half * np.array([(0, 0), (0, 1), (1, 0), (1, 1)])
+    places, of_quarter = np.unique(quarters @ [own.shape[1], 1], return_inverse=True)
+    rows, cols = np.divmod(places, own.shape[1])
+    own_blocks = sliding_window_view(own, (half, half), axis=(0, 1))
+    other_blocks = sliding_window_view(padded, (half + 2 * radius,) * 2, axis=(0, 1))
+    length = fft.next_fast_len(half + 2 * radius, real=True)
+    products = np.empty((len(places), window, window), np.float32)
+    for begin in range(0, len(places), _BLOCKS):
+        some = slice(begin, begin + _BLOCKS)
+        own_spectra, spectra = (
+            fft.rfft2(blocks[rows[some], cols[some]], (length, length)) for blocks in (own_blocks, other_blocks)
+        )
+        spectra *= np.conj(own_spectra)
+        products[some] = fft.irfft2(spectra.sum(axis=1), (length, length))[:, :window, :window]
+    return products[of_quarter.reshape(-1, 4)].sum(axis=1)
 
 
 def _inverse(jacobian):

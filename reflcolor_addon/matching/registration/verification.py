@@ -220,7 +220,7 @@ def by_chance(scan_image, sighting, model, exchanged=_EXCHANGED):
         found = surfaces(scan_image, tiles, None, model, RADIUS, replace(sighting, features=features))
         if found is not None:
             changed, _ = fitted(found, model, free, blur=1.0, spread=_SPREAD, rng=rng)
-            shift = np.einsum("nij,nj->ni", found.inverse, changed.project(found.sites)[0] - found.places)
+            shift = found.shifts(changed.project(found.sites)[0])
             strengths.append(judged(found, np.nan_to_num(shift, nan=2.0 * RADIUS)).strength)
     return np.array(strengths)
 
