@@ -2,20 +2,29 @@
 
 Every scan of benchmarks.trust_cases, as it is and with holes in pixels, lines and blobs of 3 to 20 percent, is matched
 with photos that show it and with photos of many kinds that do not. Each try is kept in a file; started again, the
-command goes on where it was, so that it may be stopped at any time. The tries are in an order as if drawn at random:
-what was tried so far stands for the whole.
+command goes on where it was, so that it may be stopped at any time. The tries are in an order as if drawn at random,
+every scan once before any comes again: what was tried so far stands for the whole.
 
 The rates are printed for each kind, with the limits that they lie within (exact ones of the binomial, 95 percent), and
-the evidence of the surest wrong photos and of the least sure right ones, as a share of what is needed.
+the evidence of the surest wrong photos and of the least sure right ones, as a share of what is needed; then, for
+several bars, how many wrong and how many right photos reach them.
+
+The file has one JSON object a line for each try: key (scan|holes|kind|photo, by which a try is known again), scan,
+holes, kind, photo, verified, evidence (1 is needed), found_by, off (how far the camera is off as a share of the photo's
+width, where the true one is known), seconds (of the processor), code (the state of the modules that decide a verdict,
+without comments: tries of another state are not counted and are made anew) and numbers (the fields of Evidence).
 """
 
 import argparse
+import ast
 import contextlib
 import hashlib
 import json
 import time
 import zlib
 from collections import defaultdict
+from functools import cache
+from itertools import islice, product
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +36,16 @@ from reflcolor_addon.matching.registration.registration import ScanViews, regist
 RESULTS = Path("build/trust.jsonl")
 # Of each kind, for one scan with one kind of holes, so that about half are photographs; others of these for each scan.
 _OF_KIND = {"noise": 4, "foreign": 9, "scrambled": 2, "elsewhere": 2, "mirrored": 2, "upside-down": 2, "reflectance": 2}
+# The photos of one scan with one kind of holes are tried in so many parts, each of photos of all kinds.
+_PARTS = 3
+# The bars that the table of right and wrong photos is printed for.
+_BARS = (0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 2.0)
+# The modules of reflcolor_addon/matching that decide a verdict.
+_DECIDING = (
+    *("edges", "grid_angles", "models", "photo_image", "scan_image"),
+    *(f"registration/{name}" for name in ("features", "fitting", "refinement", "registration", "search", "sphere_map")),
+    *("registration/tiles", "registration/verification"),
+)
 
 
 def main():
@@ -40,7 +59,7 @@ def main():
     parser.add_argument("--every-foreign", action="store_true", help="all photographs for each scan, not some of them")
     arguments = parser.parse_args()
     ends = time.monotonic() + 60 * arguments.minutes
-    known = {try_["key"]: try_ for try_ in _read(arguments.results)}
+    known = {try_["key"]: try_ for try_ in _read(arguments.results) if try_["code"] == _code()}
     photographs = {}
     arguments.results.parent.mkdir(parents=True, exist_ok=True)
     with arguments.results.open("a", encoding="utf-8") as file:
@@ -55,11 +74,16 @@ def main():
 
 
 def _groups(arguments):
-    """Pairs of a scan's name and holes, in an order as if at random."""
-    pairs = [
-        (scan, holes) for scan in arguments.scan or trust_cases.SCANS for holes in arguments.holes or trust_cases.HOLES
-    ]
-    return sorted(pairs, key=lambda pair: zlib.crc32("|".join(pair).encode()))
+    """A scan's name, holes, and a part of their photos, as if at random, but every scan once before any comes again."""
+
+    def random(*names):
+        return zlib.crc32("|".join(map(str, names)).encode())
+
+    groups = []
+    for scan in arguments.scan or trust_cases.SCANS:
+        own = sorted(product(arguments.holes or trust_cases.HOLES, range(_PARTS)), key=lambda part: random(scan, *part))
+        groups += [(turn, random(scan, *part), scan, *part) for turn, part in enumerate(own)]
+    return [group[2:] for group in sorted(groups)]
 
 
 def _asked(try_, arguments):
@@ -85,9 +109,9 @@ def _photos(scan, holes, arguments):
 
 def _tried(group, arguments, known, photographs, ends):
     """Yield a dict of what became of each photo of a group that is not known yet; photographs are kept as images."""
-    scan_name, holes = group
+    scan_name, holes, part = group
     views = None
-    for kind, name, rgb in _photos(*group, arguments):
+    for kind, name, rgb in islice(_photos(scan_name, holes, arguments), part, None, _PARTS):
         key = f"{scan_name}|{holes}|{kind}|{name}"
         if key in known or time.monotonic() >= ends:
             continue
@@ -132,9 +156,7 @@ def table(tries):
         _row(kind, kinds[kind], kind in wrong)
     if wrong:
         _row("all wrong", [try_ for kind in wrong for try_ in kinds[kind]], True)
-    others = sum(try_["code"] != _code() for try_ in tries)
-    if others:
-        print(f"{others} of these tries were made with another state of the code; delete the file to make them anew")
+    _curves(tries)
     for try_ in tries:
         if try_["verified"] and try_["kind"] in trust_cases.WRONG:
             print(f"VERIFIED though wrong: {try_['key']}, evidence {try_['evidence']}")
@@ -159,12 +181,30 @@ def _row(kind, tries, is_wrong):
     print(f"{kind:12} {count:6d} {scans:6d} {rate}  {middle:26} {seconds:6.1f}")
 
 
+def _curves(tries):
+    """Print which share of the wrong and of the right photos would be verified with other bars."""
+    evidence = {
+        name: np.array([try_["evidence"] for try_ in tries if try_["kind"] in kinds])
+        for name, kinds in (("wrong", trust_cases.WRONG), ("right", trust_cases.RIGHT))
+    }
+    if not all(map(len, evidence.values())):
+        return
+    print("\nevidence of at least  " + "".join(f"{bar:7.2f}" for bar in _BARS))
+    for name, values in evidence.items():
+        print(f"{name:5} of {len(values):5d}        " + "".join(f"{np.sum(values >= bar):7d}" for bar in _BARS))
+
+
+@cache
 def _code():
-    """A short name of the state of the code that tries photos."""
+    """A short name of the state of the code that decides verdicts; comments and docstrings do not count."""
     folder = Path(trust_cases.__file__).parent.parent / "reflcolor_addon" / "matching"
     digest = hashlib.sha256()
-    for path in sorted([*folder.glob("*.py"), *(folder / "registration").glob("*.py")]):
-        digest.update(path.read_bytes())
+    for name in _DECIDING:
+        tree = ast.parse((folder / f"{name}.py").read_text(encoding="utf-8"))
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node) is not None:
+                del node.body[0]
+        digest.update(ast.unparse(tree).encode())
     return digest.hexdigest()[:8]
 
 
