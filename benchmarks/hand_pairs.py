@@ -2,8 +2,8 @@
 
 For every scan whose photo's camera is known (benchmarks.true_cameras), six pixels spread over what the photo shows are
 picked, five times. How far the camera is off in the median of all that the photo shows, in pixels of the photo, is
-printed for the pairs alone and for the camera at last, in the median of the five; and in how many of the five the photo
-was verified beside the pairs.
+printed for the pairs alone, for the camera that matching found, and for the one that colors come from in the end, in
+the median of the five; and in how many of the five the photo was verified beside the pairs.
 """
 
 import argparse
@@ -14,6 +14,7 @@ from benchmarks import true_cameras
 from reflcolor_addon import Seeds
 from reflcolor_addon.matching.photo_image import PhotoImage
 from reflcolor_addon.matching.registration import location
+from reflcolor_addon.matching.registration.alignment import aligned
 from reflcolor_addon.matching.registration.pairs import camera_from_pairs
 from reflcolor_addon.matching.registration.registration import ScanViews
 
@@ -24,9 +25,13 @@ def main():
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--draws", type=int, default=5)
-    draws = parser.parse_args().draws
-    print(f"{'scan, photo':18} pairs alone  camera  ratio  verified")
+    parser.add_argument("scans", nargs="*", help="parts of names: only these")
+    arguments = parser.parse_args()
+    draws = arguments.draws
+    print(f"{'scan, photo':18} pairs alone   found  at last  ratio  verified")
     for known in true_cameras.every():
+        if arguments.scans and not any(name in known.label for name in arguments.scans):
+            continue
         photo, views = PhotoImage("photo", known.photo), ScanViews(known.scan)
         off = []
         for draw in range(draws):
@@ -34,11 +39,14 @@ def main():
             hand = Seeds(rows, cols, np.zeros((_PAIRS, 3), np.uint8), photos=("photo",) * _PAIRS, photo_xy=xy)
             alone = camera_from_pairs(known.scan.points[rows, cols], xy, photo)[0]
             placed = location._by_hand(known.scan, views, hand, photo, lambda text: None)
-            sure = placed.registration.found_by == "known"
-            if alone is not None and placed.verified:
-                off.append((distance(known, alone), distance(known, placed.registration.model), sure))
-        alone, last, sure = np.array(off).T
-        figures = f"{np.median(alone):11.1f} {np.median(last):7.1f} {np.median(last) / np.median(alone):6.2f}"
+            if alone is None or not placed.verified:
+                continue
+            found = placed.registration.model
+            last = found if views.stretched else aligned(known.scan, photo, found)
+            off.append((*(distance(known, camera) for camera in (alone, found, last)), placed.registration.accepted))
+        *distances, sure = np.array(off).T
+        alone, found, last = (float(np.median(one)) for one in distances)
+        figures = f"{alone:11.1f} {found:7.1f} {last:7.1f} {last / alone:6.2f}"
         print(f"{known.label:18} {figures}  {int(sure.sum())} of {draws}", flush=True)
 
 

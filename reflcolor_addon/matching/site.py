@@ -102,9 +102,11 @@ def _shown(place, photo, index):
     location = place.locations[index]
     if not location.verified:
         return None
-    model = aligned(place.scan, photo, location.registration.model)
-    location = replace(location, registration=replace(location.registration, model=model))
-    place.locations[index] = location
+    model = location.registration.model
+    if not place.views.stretched:
+        model = aligned(place.scan, photo, model)
+        location = replace(location, registration=replace(location.registration, model=model))
+        place.locations[index] = location
     view = seen_by(photo, model, place.surface)
     if np.count_nonzero(view.usable) >= _LEAST_SEEN:
         return view

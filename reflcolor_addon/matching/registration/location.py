@@ -174,7 +174,9 @@ def _by_hand(scan, views, hand, photo, step):
         points[kept], hand.photo_xy[mine][kept], _doubt(pixels, len(kept), photo), _OVERLAP * views.repeats
     )
     refined = confirmed(views, photo, camera, picked)
-    registration = refined if refined.accepted else Registration(camera, refined.evidence, "hand")
+    # Where measurements are stretched, pairs say better than tiles where the camera is.
+    by_tiles = refined.accepted and not views.stretched
+    registration = refined if by_tiles else Registration(camera, refined.evidence, "hand")
     slips, warnings = "", ()
     if len(left_out):
         slip = int(np.flatnonzero(mine)[left_out[0]])
