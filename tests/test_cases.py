@@ -5,17 +5,11 @@ In most of the shared files the intensity names the pixel: (row x columns + colu
 
 import numpy as np
 import pytest
-from e57_samples import write_e57
-from sample_scans import intensity_of, ptx_text, room_points
+from hall import COLOR, HALL, NAMES, e57, fields, ptx
+from sample_scans import intensity_of, ptx_text
 
 from reflcolor_addon.errors import ScanError
 from reflcolor_addon.files.readers import ReadOptions, read_scans
-
-HALL = room_points(40, 90, step_deg=(3.0, 4.0), top_deg=60.0, left_deg=178.0)
-# A floor and a ceiling, so that a column of the grid is more than one upright line.
-HALL = HALL * np.minimum(1, np.where(HALL[..., 2] < 0, 1.2, 1.8) / np.maximum(np.abs(HALL[..., 2]), 1e-9))[..., None]
-NAMES = intensity_of(HALL)
-COLOR = np.random.default_rng(1).integers(0, 256, HALL.shape, np.uint8)
 
 
 @pytest.fixture
@@ -32,31 +26,6 @@ def names_its_pixels(scan):
     """Whether every return has the intensity that its pixel was given."""
     named = (np.arange(scan.valid.size) + 1) / (scan.valid.size + 1)
     return np.abs(scan.reflectance - named.reshape(scan.shape))[scan.valid].max() < 1e-4
-
-
-def ptx(tmp_path, text):
-    path = tmp_path / "hall.ptx"
-    path.write_text(text)
-    return read_scans(path)
-
-
-def e57(tmp_path, *scans, **options):
-    write_e57(tmp_path / "hall.e57", *scans)
-    return read_scans(tmp_path / "hall.e57", options=ReadOptions(**options))
-
-
-def fields(points=HALL, rows=None, cols=None, keep=None, **more):
-    """Columns of an E57: of every pixel that is kept, in the order of the grid."""
-    row, col = np.mgrid[: points.shape[0], : points.shape[1]]
-    columns = dict(zip(("cartesianX", "cartesianY", "cartesianZ"), np.moveaxis(points, -1, 0), strict=True))
-    columns |= {
-        "intensity": NAMES,
-        "rowIndex": row if rows is None else rows,
-        "columnIndex": col if cols is None else cols,
-    }
-    columns |= more
-    keep = slice(None) if keep is None else np.ravel(keep)
-    return {"fields": {name: np.ravel(values)[keep] for name, values in columns.items() if values is not None}}
 
 
 # Reflectance that is none
@@ -289,6 +258,18 @@ def test_of_three_returns_without_numbers_the_nearest_is_taken(tmp_path):
     assert "3,600 pixels have several returns; the first was taken, 7,200 others were left out" in scan.warnings[0]
 
 
+@pytest.mark.parametrize("numbers", [(2, 1, 0), (7, 7, 7), (3, 3, 1)])
+@pytest.mark.parametrize(("returns", "far"), [("first", 1.0), ("last", 2.0)])
+def test_numbers_that_run_backward_or_say_nothing_do_not_make_a_far_return_the_first(tmp_path, numbers, returns, far):
+    three = [fields(HALL * far, returnIndex=np.full(NAMES.shape, number))["fields"]
+             for far, number in zip((1.0, 1.5, 2.0), numbers, strict=True)]  # fmt: skip
+    order = np.random.default_rng(2).permutation(3 * NAMES.size)
+    mixed = {name: np.concatenate([part[name] for part in three])[order] for name in three[0]}
+    (scan,) = e57(tmp_path, {"fields": mixed}, returns=returns)
+    np.testing.assert_array_equal(scan.points, HALL * far)
+    assert ("turned around" in scan.warnings[0]) == (len(set(numbers)) > 1)
+
+
 # Lines instead of rows and columns, coordinates of two kinds
 
 
@@ -326,8 +307,9 @@ def test_an_invalid_state_of_the_other_kind_counts_where_there_is_no_own(tmp_pat
 def test_colors_from_0_to_1_are_colors(case, tmp_path):
     for scan in (*case("ptx_color_0_to_1.ptx"), *case("e57_color_0_to_1_without_limits.e57")):
         assert scan.color is not None and scan.color.max() == 255 and len(np.unique(scan.color)) > 50
-    (made,) = ptx(tmp_path, ptx_text(HALL, NAMES, np.round(COLOR / 255, 6)))
-    np.testing.assert_array_equal(made.color, COLOR)
+    for stored in (np.round(COLOR / 255, 6), np.round(COLOR / 255 * 1023)):
+        (made,) = ptx(tmp_path, ptx_text(HALL, NAMES, stored))
+        np.testing.assert_array_equal(made.color, COLOR)
 
 
 @pytest.mark.parametrize(
@@ -337,8 +319,9 @@ def test_colors_from_0_to_1_are_colors(case, tmp_path):
         (COLOR.astype(int), (0, 65535), True),
         (COLOR / 255, (0, 255), True),
         (COLOR.astype(int), (0.0, 1.0), True),
+        (np.round(COLOR / 255 * 4095).astype(int), (0, 65535), True),
     ],
-    ids=["16 bits", "8 bits said to be 16", "0 to 1 said to be 8 bits", "8 bits said to be 0 to 1"],
+    ids=["16 bits", "8 bits said to be 16", "0 to 1 said to be 8 bits", "8 bits said to be 0 to 1", "12 said to be 16"],
 )
 def test_colors_are_scaled_by_what_they_are(tmp_path, stored, limits, told):
     names = ("colorRed", "colorGreen", "colorBlue")

@@ -12,7 +12,7 @@ from reflcolor_addon.cli.main import main
 from reflcolor_addon.errors import ImageError
 from reflcolor_addon.files.photo import Place
 from reflcolor_addon.files.photo_files import photos_of
-from reflcolor_addon.files.readers.e57_photos import photos_inside
+from reflcolor_addon.files.readers.e57_photos import photos_inside, read_photos
 from reflcolor_addon.matching.models import Camera
 from reflcolor_addon.matching.photo_image import PhotoImage
 from reflcolor_addon.matching.registration import location
@@ -200,3 +200,10 @@ def located_on(room, photo):
 def own_in_world(room, own):
     turn, place = room.pose[:3, :3], room.pose[:3, 3]
     return own.rotation @ turn.T, turn @ own.center + place, own.focal_px, own.distortion, own.width, own.height
+
+
+def test_a_cylindrical_photo_is_left_out_with_a_way_out(made):
+    warnings = []
+    read_photos(made(pinhole(), picture("cylindricalRepresentation", name="hall")), warnings)
+    (told,) = map(str, warnings)
+    assert "hall is left out: it is cylindrical; photos are compared" in told and "--photo" in told and "\n" not in told

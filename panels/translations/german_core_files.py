@@ -34,6 +34,12 @@ _GATE = {
     "{what} needs about {needed} of memory, and {free} are free; {way}": (
         "{what} braucht etwa {needed} Arbeitsspeicher, und {free} sind frei; {way}"
     ),
+    "its return numbers count from the farthest to the nearest; they were turned around": (
+        "seine Echos sind vom fernsten zum nächsten gezählt; die Zählung wurde umgedreht"
+    ),
+    "{count:,} columns between its azimuths are missing; they were left empty": (
+        "{count:,} Spalten zwischen seinen Azimuten fehlen; sie blieben leer"
+    ),
     "read every second row and column only: --step 2, or Every in the import dialog": (
         "nur jede zweite Zeile und Spalte lesen: --step 2 oder Jede im Importdialog"
     ),

@@ -175,7 +175,11 @@ _E57_XML = {
 }
 
 _E57_PHOTOS = {
-    "it is {kind}": "es ist {kind}",
+    "it is {kind}; photos are compared with a scan as pinhole, spherical or visual reference images: export it as one "
+    "of these, or straighten it and give the picture with --photo": (
+        "es ist {kind}; Fotos werden als Lochkamera-, Kugel- oder Ansichtsbilder mit einem Scan verglichen: "
+        "exportieren Sie es als eines davon, oder entzerren Sie es und geben Sie das Bild mit --photo an"
+    ),
     "cylindrical": "zylindrisch",
     "unknown": "unbekannt",
     "{file}: holds no photo that can be used": "{file}: enthält kein Foto, das zu gebrauchen ist",

@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 _PAIRS = 1 << 15
+_PAIRS_OF_LINES = 1 << 12
 _FEWEST = 30
 """Fewer pairs of points are not conclusive."""
 
@@ -38,7 +39,8 @@ class LineLength:
     def __init__(self, count, candidates):
         self._candidates = candidates
         self._pairs = [_between_lines(count, length) for length in candidates]
-        self.places = np.unique(np.concatenate([place for pair in self._pairs for place in pair]))
+        places = np.sort(np.concatenate([place for pair in self._pairs for place in pair]))
+        self.places = places[np.diff(places, prepend=-1) > 0]
 
     def of(self, points, valid):
         """Return the length of line, given the (S, 3) points at ``places`` and which of them are returns."""
@@ -98,7 +100,7 @@ def _from_neighbor(points, valid, rows, cols):
 
 def _between_lines(count, length):
     """Numbers of some points, and of those at the same place of the next line."""
-    here = np.arange(0, max(0, count - length), max(1, (count - length) // _PAIRS))
+    here = np.arange(0, max(0, count - length), max(1, (count - length) // _PAIRS_OF_LINES))
     return here, here + length
 
 

@@ -87,7 +87,10 @@ def _counts_in_8_bits(low, high):
 
 
 def _scale_of(least, most):
-    """(low, high) of the scale that values are most likely on: 0 to 1, 255 or 65535; (0, None) for none."""
+    """(low, high) of the scale that values are most likely on: of 8, 10, 12 or 16 bits, or 0 to 1; (0, None) for none.
+
+    In 16 bits, what fits into 12 would be a picture that is black nearly everywhere.
+    """
     if least < 0 or most > 65535:
         return 0.0, None
-    return 0.0, next(high for high in (1.0, 255.0, 65535.0) if most <= high)
+    return 0.0, next(high for high in (1.0, 255.0, 1023.0, 4095.0, 65535.0) if most <= high)

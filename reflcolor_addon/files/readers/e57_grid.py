@@ -20,6 +20,10 @@ _LARGEST_INDEX = 2**40
 _ONE_DIRECTION_DEG = 2.0
 """Largest angle between the returns of one pulse, with the scanner slightly away from its stated position."""
 
+_COUNTED_BACK = 0.9
+"""Share of returns that are nearer than the one before them, from which on the numbers count from the farthest. A pulse
+meets what is nearest first."""
+
 _TAKEN = {
     "first": "{pixels:,} pixels have several returns; the first was taken, {count:,} others were left out",
     "strongest": "{pixels:,} pixels have several returns; the strongest was taken, {count:,} others were left out",
@@ -117,12 +121,14 @@ class IndexGrid:
             return
         there = np.flatnonzero(valid)
         distance = np.einsum("ij,ij->i", points[there], points[there])
-        number = distance if returns is None else returns[there]
+        number = distance if returns is None else self._number(returns[there], distance, cells, warn)
+        # Where numbers are equal, the nearest is the first.
+        keys = [distance, number]
         if wanted == "strongest" and strength is not None:
-            number = -strength[there]
+            keys = [distance, -strength[there]]
         elif wanted == "last":
-            number = -number
-        order = np.lexsort((number, cells))
+            keys = [-distance, -number]
+        order = np.lexsort((*keys, cells))
         first = np.concatenate([[True], np.diff(cells[order]) != 0])
         self._points, self._pixels = there[order[first]], cells[order[first]]
         others = there.size - self._pixels.size
@@ -140,6 +146,17 @@ class IndexGrid:
             pixels=int(np.count_nonzero(np.diff(np.append(np.flatnonzero(first), len(first))) > 1)),
             count=others,
         )
+
+    @staticmethod
+    def _number(returns, distance, cells, warn):
+        """The numbers of the returns of each pixel, from the nearest on: some files count from the farthest."""
+        order = np.lexsort((returns, cells))
+        same = np.diff(cells[order]) == 0
+        farther = np.diff(distance[order])[same & (np.diff(returns[order]) > 0)]
+        if np.count_nonzero(farther < 0) <= _COUNTED_BACK * farther.size or not farther.size:
+            return returns
+        warn("its return numbers count from the farthest to the nearest; they were turned around")
+        return -returns
 
     @staticmethod
     def _scattered(points, order, first):

@@ -29,6 +29,10 @@ _KINDS = {
     "cylindricalRepresentation": Message("cylindrical"),
 }
 _USED = (PINHOLE, SPHERICAL, VISUAL)
+_NOT_USED = (
+    "it is {kind}; photos are compared with a scan as pinhole, spherical or visual reference images: export it as one "
+    "of these, or straighten it and give the picture with --photo"
+)
 _BLOBS = ("jpegImage", "pngImage")
 _BLOB_HEADER = 16
 """Bytes of a binary section before what it holds."""
@@ -109,7 +113,7 @@ def read_photos(path, warnings=None, *, cancelled=None):
             listed = _listed(file, path, cancelled)
             for inside in listed:
                 if not inside.usable:
-                    warnings.append(_left_out(path, inside, Message("it is {kind}", kind=inside.kind)))
+                    warnings.append(_left_out(path, inside, Message(_NOT_USED, kind=inside.kind)))
                     continue
                 try:
                     found += _photos(file, path, inside, warnings)

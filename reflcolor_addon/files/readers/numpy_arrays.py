@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import ScanError
-from ...messages import Message
+from ...messages import Message, of_scan
 from ...scan.directions import directions
 from ..gate import opened
 from .cloud import scan_of_columns
@@ -17,6 +17,9 @@ _POINTS = ("xyz", "points", "point_cloud", "cloud")
 _RANGES = ("range", "ranges", "range_m", "distance", "depth_ray")
 _AZIMUTHS, _ELEVATIONS = ("azimuth_deg", "azimuth"), ("elevation_deg", "elevation", "altitude")
 _COLORS = ("color", "colors", "rgb")
+_FEWEST_COLUMNS = 8
+_UNEVEN = 0.2
+"""How far, in steps, an azimuth may be from a whole number of them."""
 
 
 def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -28,7 +31,11 @@ def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, ca
     ``color`` (H, W, 3). An (H, W, 4) array is x, y, z and reflectance. Parameters and errors are those of `read_scans`.
     """
     step = 1 if options.grid == ANGLE else options.step
-    arrays = NumpyFile(file, path, progress, cancelled).arrays(_thinning(step) if step > 1 else None)
+    thinning = _thinning(step) if step > 1 else None
+    arrays = NumpyFile(file, path, progress, cancelled).arrays(thinning)
+    arrays, warnings = _with_missing_columns(arrays, path.stem)
+    if thinning and _by_angles(shapes := {name: array.shape for name, array in arrays.items()}):
+        arrays = {name: arrays[name][part].copy() for name, part in thinning(shapes, and_angles=True).items()}
     points = _points(arrays, path)
     shape = points.shape[:2] if points.ndim == 3 else None
     mask = arrays.get("valid")
@@ -45,7 +52,7 @@ def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, ca
             columns[name] = array.ravel()
         elif name in _COLORS and array.shape == (*size, 3):
             columns |= dict(zip(("red", "green", "blue"), array.reshape(-1, 3).T, strict=True))
-    return [scan_of_columns(path, columns, options=options, shape=shape)]
+    return [scan_of_columns(path, columns, options=options, shape=shape, warnings=warnings)]
 
 
 def array_of(path, member):
@@ -125,10 +132,49 @@ def _angles(arrays, names):
     return arrays[name].astype(np.float64) if name.endswith("_deg") else np.degrees(arrays[name].astype(np.float64))
 
 
+def _with_missing_columns(arrays, name):
+    """Arrays with empty columns where the azimuths leave some out, so that what is far apart is not joined; what is to
+    be said of it."""
+    key = next((key for key in _AZIMUTHS if key in arrays), None)
+    shape = next((arrays[key].shape for key in _RANGES if key in arrays), ())
+    if key is None or len(shape) != 2 or arrays[key].shape != shape[1:] or shape[1] < _FEWEST_COLUMNS:
+        return arrays, []
+    turn = 360.0 if key.endswith("_deg") else 2 * np.pi
+    azimuth = np.unwrap(arrays[key].astype(np.float64), period=turn)
+    steps = np.diff(azimuth)
+    usual = np.median(steps)
+    if not (np.isfinite(steps).all() and usual):
+        return arrays, []
+    columns = np.rint(steps / usual)
+    width = int(columns.sum()) + 1
+    even = (np.abs(steps / usual - columns) < _UNEVEN).all() and columns.min() == 1
+    if not even or not shape[1] < width <= abs(turn / usual) + 1:
+        return arrays, []
+    places = np.concatenate([[0], np.cumsum(columns)]).astype(np.int64)
+    found = dict(arrays)
+    for other, array in arrays.items():
+        if array.shape[:2] == shape:
+            found[other] = np.zeros((shape[0], width, *array.shape[2:]), array.dtype)
+            found[other][:, places] = array
+    found[key] = np.interp(np.arange(width), places, azimuth)
+    missing = width - shape[1]
+    return found, [
+        of_scan(name, "{count:,} columns between its azimuths are missing; they were left empty", count=missing)
+    ]
+
+
+def _by_angles(shapes):
+    """Whether points are given by ranges and angles."""
+    return not any(name in shapes for name in (*_POINTS, "", "x")) and any(name in shapes for name in _RANGES)
+
+
 def _thinning(step):
     """Which part to read of arrays of a grid, and of the angles of its rows and columns; see `NumpyFile.arrays`."""
 
-    def wanted(shapes):
+    def wanted(shapes, and_angles=False):
+        if _by_angles(shapes) and not and_angles:
+            # Columns may be missing, so they are counted when the azimuths are known; ranges take little memory.
+            return {}
         names = [name for name in (*_POINTS, "") if len(shapes.get(name, ())) == 3]
         names += [name for name in ("x", *_RANGES) if len(shapes.get(name, ())) == 2]
         if not names:
