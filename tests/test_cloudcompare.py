@@ -6,8 +6,8 @@ import subprocess
 
 import numpy as np
 import pytest
+from hall import HALL, NAMES
 from sample_scans import ptx_text
-from test_cases import HALL, NAMES
 
 from reflcolor_addon.files.readers import read_scans
 from reflcolor_addon.files.writers import write_ply

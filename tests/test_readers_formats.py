@@ -6,8 +6,8 @@ import struct
 import numpy as np
 import pytest
 from colored_scans import surface_of, tilted_pose
+from hall import HALL, NAMES
 from sample_scans import intensity_of, ptx_text, room_points
-from test_cases import HALL, NAMES
 
 from reflcolor_addon.errors import Cancelled, ScanError
 from reflcolor_addon.files.readers import FORMATS, ReadOptions, read_scans

@@ -4,7 +4,7 @@ import struct
 
 import numpy as np
 import pytest
-from test_cases import HALL, NAMES
+from hall import HALL, NAMES
 
 from reflcolor_addon.errors import Cancelled, ScanError
 from reflcolor_addon.files.readers import ReadOptions, las, read_scans
