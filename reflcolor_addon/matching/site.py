@@ -104,8 +104,10 @@ def _shown(place, photo, index):
         return None
     model = location.registration.model
     if not place.views.stretched:
-        model = aligned(place.scan, photo, model)
-        location = replace(location, registration=replace(location.registration, model=model))
+        model = aligned(place.scan, photo, model, camera_only=location.by_hand)
+        # A picture that was warped is placed better by a homography than by the camera that was found.
+        reason = location.reason if location.by_hand else model.kind
+        location = replace(location, registration=replace(location.registration, model=model), reason=reason)
         place.locations[index] = location
     view = seen_by(photo, model, place.surface)
     if np.count_nonzero(view.usable) >= _LEAST_SEEN:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..models import GridHomography, within
 from ..scan_image import ScanImage, pixel_steps, reflectance_image
 from .refinement import fitted, tightened
 from .tiles import Tiles, surfaces
@@ -16,43 +17,79 @@ from .tiles import Tiles, surfaces
 # is sought.
 _LONGEST, _TILE, _RADIUS = (400, 1500), 64, 6
 # A homography, of more numbers than a camera and looser from the search, is sought first in a wider circle: tile, way,
-# and see `fitted`.
+# and see `fitted`; again and again while that fits better by more than the last, a share.
 _WIDE_TILE, _WIDE_RADIUS, _BLUR, _SPREAD = 32, 12, 2.0, 5.0
+_SEEKS, _BETTER = 10, 0.01
+# A homography is sought beside a camera unless it fits worse from the first by so many deviations (see `_fit`), and is
+# taken if it fits better in the end by so many: chance alone gives less.
+_WORSE, _BETTER_BY = 0.2, 0.5
 _MOST_TILES = 600
 _ROUNDS = 3
 # A round that moves no tile by more than so many pixels is the last one.
 _STILL = 0.1
 
 
-def aligned(scan, photo, model):
+def aligned(scan, photo, model, *, camera_only=False):
     """Return the model that fits best near ``model``; the same one where the tiles do not say that another is better.
+
+    A picture that was warped in some program is no camera's any more. Where a homography of the scan's grid fits
+    clearly better than a camera, it is returned instead.
 
     Parameters
     ----------
     scan : Scan
     photo : PhotoImage
     model : Camera or GridHomography
+    camera_only : bool
+        Whether a camera has to stay one, because a person placed it.
     """
     vertical, horizontal = pixel_steps(scan)
     extent = max(scan.shape[0] * vertical, scan.shape[1] * horizontal)
     images = [ScanImage(scan, reflectance_image(scan, "ranks"), extent / longest) for longest in _LONGEST]
     if model.kind == "homography":
-        model = _sought(images[0], photo, model)
+        return _refitted(images, photo, _sought(images[0], photo, model))
+    camera = _refitted(images, photo, model)
+    flat = None if camera_only else _flat(images[0], camera, scan.shape)
+    if flat is None or _fit_on(images[0], photo, flat) < _fit_on(images[0], photo, camera) - _WORSE:
+        return camera
+    flat = _refitted(images, photo, _sought(images[0], photo, flat))
+    better = _fit_on(images[-1], photo, flat) > _fit_on(images[-1], photo, camera) + _BETTER_BY
+    return flat if better else camera
+
+
+def _flat(image, camera, grid_shape):
+    """The homography of the grid that is nearest to what a camera sees; None where there is none."""
+    import cv2
+
+    places, depth = camera.project(camera.sites(image))
+    seen = image.valid & (depth > 0) & within(camera, places)
+    if np.count_nonzero(seen) < 4:
+        return None
+    matrix, _ = cv2.findHomography(image.grid_xy[seen], places[seen])
+    return None if matrix is None else GridHomography(matrix, grid_shape, camera.width, camera.height)
+
+
+def _refitted(images, photo, model):
+    """The model fitted on one image after the other."""
     for image in images:
         model = _tightened(image, photo, model)
     return model
 
 
 def _sought(image, photo, model):
-    """The best model around on one image, if it fits better."""
+    """The best homography around on one image, as long as one fits better."""
     tiles = _some(Tiles.of(image, _WIDE_TILE))
     found = surfaces(image, tiles, photo, model, _WIDE_RADIUS)
-    if found is None:
-        return model
-    rng = np.random.default_rng(0)
-    moved, _ = fitted(found, model, model.ALL, blur=_BLUR, spread=_SPREAD, rng=rng)
-    after = surfaces(image, tiles, photo, moved, _WIDE_RADIUS)
-    return model if after is None or _fit(after) <= _fit(found) else moved
+    for _ in range(_SEEKS):
+        if found is None:
+            return model
+        rng = np.random.default_rng(0)
+        moved, _ = fitted(found, model, model.ALL, blur=_BLUR, spread=_SPREAD, rng=rng)
+        after = surfaces(image, tiles, photo, moved, _WIDE_RADIUS)
+        if after is None or _fit(after) <= _fit(found) + _BETTER * abs(_fit(found)):
+            return model
+        model, found = moved, after
+    return model
 
 
 def _tightened(image, photo, model):
@@ -78,6 +115,12 @@ def _some(tiles):
     return replace(tiles, corners=tiles.corners[::step], middles=tiles.middles[::step])
 
 
+def _fit_on(image, photo, model):
+    """The same of a model on an image; less than any where the photo shows too little of it."""
+    found = surfaces(image, _some(Tiles.of(image, _TILE)), photo, model, _RADIUS)
+    return -np.inf if found is None else _fit(found)
+
+
 def _fit(found):
-    """Mean score of all tiles where the model puts them."""
+    """Mean score of all tiles where the model puts them, in deviations from each tile's mean."""
     return float(found.scores[:, found.radius, found.radius].mean())
