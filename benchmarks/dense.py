@@ -6,7 +6,8 @@ saw; the last as a ratio to the first, as it comes and after one gain of linear 
 light of the photo was. Then where the photo shows the scan: plain projection with the same camera (a depth buffer and
 nothing else, as CloudCompare and MeshLab project photos) and ours. Where the photo did not see it: Natural to Enhanced.
 The structural similarity of the luminance; and the step in color across the border of what was seen, as a ratio to the
-step that the truth has there.
+step that the truth has there. "rank" is the rank correlation of the confidence with the error as the colors come; below
+each group stands the mean error where the confidence is 0 to 0.1, 0.1 to 0.2 and so on.
 
 "site" is the house of scene 3, four scans from three photos. "hidden" takes real pairs whose true colors are known,
 hides half of what the photo shows from every method, and prints the error there: of ours, of the mean color, and of
@@ -25,6 +26,7 @@ import numpy as np
 
 from benchmarks import matching_pairs, true_cameras
 from benchmarks.matching import SCENES
+from benchmarks.quality.measure import reliability
 from benchmarks.quality.peers import levin
 from reflcolor_addon import Seeds, Settings, colorize, evaluate
 from reflcolor_addon.color import colorspaces
@@ -51,7 +53,20 @@ GROUPS = (
     "hidden",
     "texture",
 )
-COLUMNS = ("enhanced", "seeds", "natural", "ratio", "in light", "seen", "plain", "ours", "unseen", "ssim", "step")
+COLUMNS = (
+    "enhanced",
+    "seeds",
+    "natural",
+    "ratio",
+    "in light",
+    "seen",
+    "plain",
+    "ours",
+    "unseen",
+    "ssim",
+    "step",
+    "rank",
+)
 # What the range may differ by between neighbors of one surface, as a logarithm.
 _ONE_SURFACE = 0.03
 _HIDDEN_SEEDS = 300
@@ -79,19 +94,27 @@ def main():
 def measured(group, arguments):
     """Print the pairs of one group, and their means."""
     print(f"\n{group}\n{'scan':14}" + "".join(f"{name:>10}" for name in COLUMNS), flush=True)
-    rows = []
+    rows, by_confidence = [], []
     for pair, matching in _matched(group, arguments):
         if matching.observed is None:
             print(f"{pair.scan.name:14} no photo is verified", flush=True)
             continue
-        row, picture = figures(pair, matching)
+        row, by_tenth, picture = figures(pair, matching)
         rows.append(row)
+        by_confidence.append([np.nan if value is None else value for value in by_tenth])
         print(f"{pair.scan.name:14}" + "".join(f"{value:10.3f}" for value in row), flush=True)
         if arguments.pictures:
             arguments.pictures.mkdir(parents=True, exist_ok=True)
             write_png(arguments.pictures / f"{group} {pair.scan.name}.png", picture)
     if rows:
         print(f"{'mean':14}" + "".join(f"{value:10.3f}" for value in np.nanmean(rows, axis=0)), flush=True)
+        print("by confidence " + "".join(f"{_mean(values):10.2f}" for values in zip(*by_confidence, strict=True)))
+
+
+def _mean(values):
+    """The mean of those that are numbers."""
+    known = [value for value in values if np.isfinite(value)]
+    return np.mean(known) if known else np.nan
 
 
 def _matched(group, arguments):
@@ -105,11 +128,14 @@ def _matched(group, arguments):
 
 
 def figures(pair, matching):
-    """Return one figure for each of `COLUMNS`, and a picture: ours, the truth, what was seen."""
+    """Return one figure for each of `COLUMNS`, the error by tenths of the confidence, and a picture: ours, the truth,
+    what was seen."""
     scan, truth, known, observed = pair.scan, pair.truth, pair.known, matching.observed
     enhanced = colorize(scan, matching.seeds, Settings.preset("Enhanced")).rgb
     natural = Settings.preset("Natural")
-    seeds, ours = (colorize(scan, matching.seeds, natural, given).rgb for given in (None, observed))
+    seeds, result = (colorize(scan, matching.seeds, natural, given) for given in (None, observed))
+    seeds, ours = seeds.rgb, result.rgb
+    sure = reliability(result.confidence, ours, replace(scan, color=truth), known)
     plain, shown = projected(pair, matching)
     shown &= known
     seen = known & observed.seen
@@ -125,9 +151,10 @@ def figures(pair, matching):
         error(ours, truth, known & ~seen) / error(enhanced, truth, known & ~seen),
         evaluate(ours, truth, known)["structural_similarity"],
         step(ours, observed.seen, scan, known) / step(truth, observed.seen, scan, known),
+        sure["rank_correlation"],
     )
     beside = np.where(observed.seen[..., None], ours, 255 - (255 - ours) // 3)
-    return row, np.concatenate([ours, truth, beside], axis=1 if scan.shape[0] > scan.shape[1] else 0)
+    return row, sure["by_tenth"], np.concatenate([ours, truth, beside], axis=1 if scan.shape[0] > scan.shape[1] else 0)
 
 
 def projected(pair, matching):

@@ -49,7 +49,7 @@ def measure(name, count, kept=None):
     -------
     dict
         ``scan``, ``seeds``, ``count`` and ``figures``: by method, what ``evaluate`` returns and, for those of this
-        project, ``seconds`` and ``confidence`` (see `_confidence`).
+        project, ``seconds`` and ``confidence`` (see `reliability`).
     """
     path = kept and kept / f"{name}-{count}.json"
     if path and path.exists():
@@ -80,7 +80,7 @@ def _measured(name, count):
         result = results[method]
         figures[method] = evaluate(result.rgb, scan.color, known) | {"seconds": seconds.get(method)}
         shown = result.rgb if settings.light else with_luminance_of(result.rgb, scan.color)
-        figures[method]["confidence"] = _confidence(result.confidence, shown, scan, known)
+        figures[method]["confidence"] = reliability(result.confidence, shown, scan, known)
     return {"scan": name, "seeds": len(seeds), "count": count, "figures": figures}
 
 
@@ -95,7 +95,7 @@ def _timed(scan, seeds):
     return {method: min(taken) for method, taken in seconds.items()}
 
 
-def _confidence(confidence, rgb, scan, known):
+def reliability(confidence, rgb, scan, known):
     """Rank correlation of confidence and error, the mean error of the more confident half and of the other, and the
     mean error where the confidence is 0 to 0.1, 0.1 to 0.2 and so on, None where it nowhere is."""
     from scipy.stats import spearmanr

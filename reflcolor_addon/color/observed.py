@@ -17,7 +17,7 @@ from .luminance import seed_values
 # of border pixels that are averaged, the exponent of their distances, and the size of the window over which each is
 # smoothed.
 _STEP, _HALF_WAY = 1.0, 150.0
-_NEAREST, _ALPHA, _AVERAGED = 8, 2.0, 5
+_NEAREST, _ALPHA, _AVERAGED = 8, 2.0, 3
 # Weight from which an observed color counts as that of the surface.
 _SURE = 0.9
 # Pixels over which what was seen fades into what is inferred from it.

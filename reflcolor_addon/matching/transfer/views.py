@@ -12,9 +12,9 @@ _BORDER_SHARE = 0.005
 _BEHIND = 0.1
 # From behind and from this far above or below, sine of the angle, another part of the thing is seen than its back.
 _LEVEL = 0.2
-# What lies nearer or farther than this share beside a pixel in the photo is another thing; and cells of the depth
-# buffer to such an outline, where a camera that is slightly off sees it.
-_OTHER_THING, _OUTLINE = 0.1, 3
+# What lies nearer or farther than this share beside a pixel in the photo is another thing; and how near to its outline
+# a camera that is slightly off sees it: cells of the depth buffer, and pixels of the scan, whichever is farther.
+_OTHER_THING, _OUTLINE, _OFF = 0.1, 3, 2.0
 # From nearer to the scanner than this share of the median range a photo shows hardly anything behind a thing.
 _ASIDE = 0.02
 # The steepest surface, tangent of the angle between normal and view, whose slope is allowed for.
@@ -165,8 +165,12 @@ def _scan_cosine(surface, strip):
 def _at_outline(buffer, sight, slope, usable):
     """(H, W) bool: next to what is much nearer, farther or unknown in the photo."""
     result = np.zeros(usable.shape, bool)
-    farthest, nearest = buffer.outlines(_OUTLINE)
-    place, own, slack = buffer.at(sight.xy[usable]), sight.depth[usable], slope[usable] * _OUTLINE
+    if not usable.any():
+        return result
+    pixel = float(np.median(sight.footprint[usable])) / buffer.cell
+    radius = max(_OUTLINE, round(_OFF * pixel))
+    farthest, nearest = buffer.outlines(radius)
+    place, own, slack = buffer.at(sight.xy[usable]), sight.depth[usable], slope[usable] * radius
     result[usable] = (farthest[place] > own * (1 + _OTHER_THING) + slack) | (
         nearest[place] < own * (1 - _OTHER_THING) - slack
     )
