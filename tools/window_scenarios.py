@@ -15,6 +15,8 @@ OUT = ROOT / "build" / "window"
 DATA = Path(os.environ.get("REFLCOLOR_DATA") or ROOT.parent / "shared" / "data")
 # How many random acts there are; CI asks for fewer (.ci/run).
 ACTS = os.environ.get("REFLCOLOR_ACTS", "2000")
+# Which ones: the same number gives the same acts.
+RANDOM = os.environ.get("REFLCOLOR_RANDOM", "20130506")
 SESSION = ROOT / "tools" / "window_session.sh"
 # Width and height of the screen; larger for pictures.
 SIZE = os.environ.get("REFLCOLOR_WINDOW", "1280x900").split("x")
@@ -143,11 +145,8 @@ def run_file(file: ScenarioFile, names: list[str], blender: Blender, zip_file: P
     line += ["--python", seen(HERE / "inside" / "start.py"), "--", "--scenarios", seen(file.path), "--names", *names]
     line += ["--zip", seen(zip_file), "--out", seen(out), "--results", seen(results), "--limit", str(file.limit_s - 5)]
     line += ["--examples", seen(ROOT / "examples"), *(["--data", seen(DATA)] if DATA.is_dir() else [])]
-    ended = run(
-        blender.command(line, folders, {"BLENDER_USER_RESOURCES": seen(user), "REFLCOLOR_ACTS": ACTS}),
-        file.limit_s,
-        log,
-    )
+    environment = {"BLENDER_USER_RESOURCES": seen(user), "REFLCOLOR_ACTS": ACTS, "REFLCOLOR_RANDOM": RANDOM}
+    ended = run(blender.command(line, folders, environment), file.limit_s, log)
 
     outcomes = read_outcomes(names, results, log)
     for outcome in outcomes.values():

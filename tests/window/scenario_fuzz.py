@@ -8,6 +8,7 @@ from inside.random_acts import RandomActs
 
 LIMIT_S = 2400
 ACTS = int(os.environ["REFLCOLOR_ACTS"])
+SEED = int(os.environ["REFLCOLOR_RANDOM"])
 
 
 def has_view(window):
@@ -17,7 +18,7 @@ def has_view(window):
 def scenario_random_acts(window):
     # Refusals in one line; a traceback's last line begins otherwise.
     window.expect_error(r"^Error: (?!Python)")
-    acts, seconds = RandomActs(window), {}
+    acts, seconds = RandomActs(window, SEED), {}
     yield from window.show_sidebar()
     for number in range(ACTS):
         # A workspace is laid out in several turns of the event loop.

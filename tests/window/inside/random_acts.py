@@ -1,4 +1,4 @@
-"""What a restless person may do with the extension, drawn at random, the same every time."""
+"""What a restless person may do with the extension, drawn at random, the same for the same seed."""
 
 import random
 
@@ -16,9 +16,9 @@ class RandomActs:
     Those of the mouse are generators: ``yield from`` what ``act`` returns.
     """
 
-    def __init__(self, window):
+    def __init__(self, window, seed):
         self.window = window
-        self.random = random.Random(20130506)
+        self.random = random.Random(seed)
         self.done = self.refused = 0
         self.scan_file = write_large_scan(window, SHAPE)
         self.seeds_file = write_seeds(window, SHAPE, 30)
