@@ -11,9 +11,10 @@ from ..reflcolor_addon.batch.memory import require_objects
 from ..reflcolor_addon.batch.paths import scan_files
 from ..reflcolor_addon.errors import ImageError, ScanError
 from ..reflcolor_addon.files.images import IMAGE_SUFFIXES
+from ..reflcolor_addon.files.photo_files import photos_of
 from ..reflcolor_addon.files.readers import SCAN_SUFFIXES, read_scans
 from ..reflcolor_addon.files.readers.e57_photos import photos_inside, read_photos
-from ..reflcolor_addon.files.readers.pair_description import Pair, describe_pair, table_of
+from ..reflcolor_addon.files.readers.pair_description import Pair, describe_pair, pair_and_photos, table_of
 from ..reflcolor_addon.messages import Message
 from ..reflcolor_addon.report.report import input_entry, scan_entry
 from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
@@ -148,7 +149,10 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
     def prepare(self, context):
         was_picked(self)
         paths = [Path(self.directory, file.name) for file in self.files if file.name] or [Path(self.filepath)]
-        pair = [path for path in paths if path.suffix.lower() in IMAGE_SUFFIXES]
+        images = [path for path in paths if path.suffix.lower() in IMAGE_SUFFIXES]
+        files = [path for path in paths if path not in images]
+        # Beside a scan's file all images are photos, but those that it names itself.
+        pair, photos = ((), images) if files else pair_and_photos(images)
         picked = self._pair(pair)
         outside, inside = self.outside_files, self.photos_inside
         reading = self.read_options()
@@ -156,7 +160,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             "max_incidence_deg": degrees(self.max_incidence),
             "units_per_meter": 1 / context.scene.unit_settings.scale_length,
         }
-        if pair and (len(pair) not in (2, 3) or len(paths) != len(pair)):
+        if pair and len(pair) not in (2, 3):
             raise ScanError(
                 "{name}: pick two images together, one of range and one of reflectance, and a third of colors if there "
                 "is one",
@@ -164,12 +168,16 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
             )
 
         def work(progress, cancelled):
-            files, doubts = paths, ()
-            if pair:
-                described, doubts = describe_pair(picked)
-                files = [described]
-            scans = [imported for path in files for imported in read(path, doubts, progress, cancelled)]
-            return scans, photos_in(paths, cancelled)
+            described, doubts = describe_pair(picked) if pair else (None, ())
+            read_files = [described] if pair else files
+            scans = [imported for path in read_files for imported in read(path, doubts, progress, cancelled)]
+            named = {file for path in read_files for file in scan_files(path)}
+            beside = [
+                photo_file(photos_of(path, cancelled=cancelled), path, cancelled=cancelled)
+                for path in photos
+                if path not in named
+            ]
+            return scans, photos_in(files, cancelled), beside
 
         def photos_in(paths, cancelled):
             """(PhotoFile, warnings) of each file that has photos inside; what is wrong with them stops no import."""
@@ -206,8 +214,14 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         return work
 
     def finish(self, context, result):
-        added, (scans, photos) = [], result
+        added, (scans, photos, beside) = [], result
         inside, doubts = [], []
+        for file in beside:
+            for image, photo in zip(add_photos(context, file), file.photos, strict=True):
+                height, width = photo.rgb.shape[:2]
+                inside.append(
+                    report_text("Loaded {name}: {width} x {height} pixels", name=image.name, width=width, height=height)
+                )
         for file, warnings in photos:
             doubts += warnings
             if images := add_photos(context, file):
@@ -256,7 +270,7 @@ class REFLCOLOR_OT_import_scan(JobOperator, ReadingProperties, bpy.types.Operato
         layout.use_property_split = True
         layout.use_property_decorate = False
         images = [path for path in picked_files(context) if path.suffix.lower() in IMAGE_SUFFIXES]
-        if len(images) in (2, 3):
+        if len(images) >= 2 and len(images) == len(picked_files(context)):
             draw_preview(layout.box(), images, self._pair)
         layout.prop(self, "max_incidence")
         self.draw_reading(layout)

@@ -80,9 +80,7 @@ def test_the_mesh_is_what_blender_makes_of_its_vertices_and_faces_one_by_one(ble
     for elements, name, dtype, width in (
         ("vertices", "co", np.float32, 3),
         ("vertices", "normal", np.float32, 3),
-        ("edges", "vertices", np.int32, 2),
         ("loops", "vertex_index", np.int32, 1),
-        ("loops", "edge_index", np.int32, 1),
         ("polygons", "loop_start", np.int32, 1),
         ("polygons", "loop_total", np.int32, 1),
         ("polygons", "normal", np.float32, 3),
@@ -91,6 +89,12 @@ def test_the_mesh_is_what_blender_makes_of_its_vertices_and_faces_one_by_one(ble
         for mesh, array in zip(meshes, (found, expected), strict=True):
             getattr(mesh, elements).foreach_get(name, array)
         np.testing.assert_array_equal(found, expected, err_msg=f"{elements}.{name}")
+    # The order of edges is ours; each is there once, and every corner has its own.
+    ends = [np.sort([tuple(edge.vertices) for edge in mesh.edges]) for mesh in meshes]
+    np.testing.assert_array_equal(*(np.unique(each, axis=0) for each in ends))
+    assert len(ends[0]) == len(ends[1])
+    corners = [each[[loop.edge_index for loop in mesh.loops]] for each, mesh in zip(ends, meshes, strict=True)]
+    np.testing.assert_array_equal(*corners)
 
 
 def test_a_scan_of_a_single_return_has_a_vertex_and_no_face(blender, tmp_path):
@@ -222,6 +226,29 @@ def test_two_images_picked_together_are_described_and_imported(blender, tmp_path
     (described,) = tmp_path.glob("*.scan.json")
     again = read_scans(described)[0]
     np.testing.assert_allclose(again.points[again.valid], coordinates(obj), atol=1e-5)
+
+
+def test_photos_picked_with_a_pair_or_with_a_scan_are_put_on_the_list(blender, small, tmp_path):
+    import cv2
+
+    images = {"depth.png": np.full((8, 16), 2000, np.uint16), "ir.png": np.full((8, 16), 9, np.uint8)}
+    for name, pixels in (images | {"view.png": np.full((30, 40, 3), 9, np.uint8)}).items():
+        cv2.imwrite(str(tmp_path / name), pixels)
+    for picked in (("depth.png", "ir.png", "view.png"), (small.name, "view.png")):
+        blender.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        blender.ops.reflcolor.import_scan(
+            filepath=str(tmp_path / picked[0]), directory=str(tmp_path), files=[{"name": name} for name in picked]
+        )
+        (photo,) = blender.context.scene.reflcolor.photos
+        assert photo.image.name == "view.png" and len([obj for obj in blender.data.objects if obj.reflcolor.rows]) == 1
+    # Those that a description names are no photos.
+    (described,) = tmp_path.glob("*.scan.json")
+    blender.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    names = (described.name, "depth.png", "ir.png", "view.png")
+    blender.ops.reflcolor.import_scan(
+        filepath=str(described), directory=str(tmp_path), files=[{"name": name} for name in names]
+    )
+    assert [photo.image.name for photo in blender.context.scene.reflcolor.photos] == ["view.png"]
 
 
 def test_flipping_mirrors_the_grid_and_keeps_the_points(blender, small):

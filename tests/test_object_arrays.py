@@ -28,6 +28,8 @@ def test_every_array_is_as_blender_stores_it(scan):
     expected = {
         "coordinates": scan.points[valid].astype(np.float32).ravel(),
         "corners": mesh.quads.astype(np.int32).ravel(),
+        "edges": mesh.edges.astype(np.int32).ravel(),
+        "corner_edges": mesh.face_edges.astype(np.int32).ravel(),
         "uv": mesh.uv.astype(np.float32).ravel(),
         "gray": np.tile(np.rint(luminance[valid]).astype(np.uint8)[:, None], 3),
         "scanned": scan.color[valid],

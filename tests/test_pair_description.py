@@ -6,7 +6,7 @@ import pytest
 
 from reflcolor_addon.errors import ScanError
 from reflcolor_addon.files.readers import read_scans
-from reflcolor_addon.files.readers.pair_description import Pair, describe_pair, previewed, table_of
+from reflcolor_addon.files.readers.pair_description import Pair, describe_pair, pair_and_photos, previewed, table_of
 
 
 @pytest.fixture
@@ -125,3 +125,15 @@ def test_images_that_cannot_be_told_apart_are_refused(pair):
     _, infrared = camera()
     with pytest.raises(ScanError, match="cannot tell which is the range image"):
         previewed(pair(one=infrared, other=infrared))
+
+
+def test_images_of_another_size_are_photos_and_so_are_those_that_all_have_colors(pair):
+    depth, infrared = camera()
+    colors = np.random.default_rng(0).integers(0, 256, (*depth.shape, 3), np.uint8)
+    photo = np.random.default_rng(1).integers(0, 256, (30, 40, 3), np.uint8)
+    images = pair(depth=depth, ir=infrared, rgb=colors, first=photo, second=photo).images
+    assert pair_and_photos(images) == (images[:3], images[3:])
+    assert pair_and_photos(images[:2]) == (images[:2], ())
+    assert pair_and_photos(images[:2] + images[3:4]) == (images[:2], images[3:4])
+    # None stands out: what is wrong is said when they are described.
+    assert pair_and_photos(images[1:2] + images[3:4]) == (images[1:2] + images[3:4], ())

@@ -30,6 +30,16 @@ def test_vertices_and_faces_are_those_of_the_grid_mesh(full_turn):
     assert (surface.vertex_count, surface.face_count) == (len(mesh.rows), len(mesh.quads))
 
 
+@pytest.mark.parametrize("full_turn", [False, True])
+def test_every_edge_of_a_face_is_there_once_and_the_faces_know_theirs(full_turn):
+    scan, _ = colored_turn() if full_turn else colored_wall()[:2]
+    mesh = grid_mesh(scan)
+    ends = np.sort(np.stack([mesh.quads, np.roll(mesh.quads, -1, axis=1)], axis=-1), axis=-1)
+    edges = np.sort(mesh.edges)
+    np.testing.assert_array_equal(edges[mesh.face_edges], ends)
+    assert len(edges) == len(np.unique(edges, axis=0)) == len(np.unique(ends.reshape(-1, 2), axis=0))
+
+
 @pytest.mark.usefixtures("strips")
 @pytest.mark.parametrize("full_turn", [False, True])
 def test_every_vertex_is_in_a_face_or_loose(full_turn):

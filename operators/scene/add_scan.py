@@ -78,14 +78,18 @@ def _fill_mesh(mesh, arrays):
     """Vertices, faces, UV map and attributes, in bulk."""
     corners, faces = arrays.corners, arrays.corners.size // 4
     mesh.vertices.add(arrays.coordinates.size // 3)
+    mesh.edges.add(arrays.edges.size // 2)
     mesh.loops.add(corners.size)
     mesh.polygons.add(faces)
     # As attributes they are written in one piece, as "co" and "vertex_index" one by one.
     mesh.attributes["position"].data.foreach_set("vector", arrays.coordinates)
     if faces:
+        mesh.attributes[".edge_verts"].data.foreach_set("value", arrays.edges)
         mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
+        mesh.attributes[".corner_edge"].data.foreach_set("value", arrays.corner_edges)
         mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, 4, dtype=np.int32))
-    mesh.update(calc_edges=True)
+    # The edges are given: finding them would make the window stand still for most of an import.
+    mesh.update()
     mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", arrays.uv)
     for name, values in arrays.values.items():
         mesh.attributes.new(name, KINDS[values.dtype.type], "POINT").data.foreach_set("value", values)

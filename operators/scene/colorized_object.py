@@ -7,7 +7,7 @@ from .scan_object import (
     GUESSED,
     add_colors,
     add_values,
-    grid_indices,
+    at_vertices,
     own_image,
     show_like_reflectance,
 )
@@ -23,10 +23,10 @@ def show_colorization(obj, colorization, picture=None):
     it is inferred; ``photo`` is the index of that photo in the provenance, or -1. Vertices that were deleted since are
     left out.
     """
-    place = grid_indices(obj)
-    add_colors(obj, COLORIZED, colorization.rgb[place])
-    for name, values in colorization.values.items():
-        add_values(obj, name, values[place])
+    rgb, *others = at_vertices(obj, colorization.rgb, *colorization.values.values())
+    add_colors(obj, COLORIZED, rgb)
+    for name, values in zip(colorization.values, others, strict=True):
+        add_values(obj, name, values)
     state = obj.reflcolor
     picture = picture or packed_pixels(colorization.rgb, obj.name)
     name = f"{obj.name} {COLORIZED}"

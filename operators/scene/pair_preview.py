@@ -1,12 +1,12 @@
-"""What would come of two or three images, shown in the file browser before they are imported."""
+"""What would come of images picked together, shown in the file browser before they are imported."""
 
 import os
 import textwrap
 from pathlib import Path
 
 from ...reflcolor_addon.errors import ReflcolorError
-from ...reflcolor_addon.files.readers.pair_description import previewed
-from .texts import shown
+from ...reflcolor_addon.files.readers.pair_description import pair_and_photos, previewed
+from .texts import report_text, shown
 
 _LETTERS = 34
 # The last preview: every redraw needs it again.
@@ -35,13 +35,14 @@ def draw_preview(layout, images, pair_of):
     column = layout.column(align=True)
     column.label(text="Image Pair", icon="IMAGE_DATA")
     try:
-        pair = pair_of(images)
-        preview = _previewed(pair)
+        preview, photos = _previewed(images, pair_of)
     except (ReflcolorError, OSError) as error:
         _draw(column, shown(error.message) if isinstance(error, ReflcolorError) else str(error), "ERROR")
         return
     for line in preview.said:
         _draw(column, shown(line))
+    for photo in photos:
+        _draw(column, report_text("photo: {image}", image=photo.name))
     for line in preview.doubts:
         _draw(column, shown(line), "ERROR")
 
@@ -52,10 +53,12 @@ def _draw(column, text, icon="NONE"):
         column.label(text=line, icon=icon if number == 0 else "NONE" if icon == "NONE" else "BLANK1", translate=False)
 
 
-def _previewed(pair):
-    stamps = tuple((path, path.stat().st_mtime_ns) for path in pair.images)
-    key = repr((stamps, pair))
+def _previewed(images, pair_of):
+    """The preview of the pair among images, and the photos among them."""
+    stamps = tuple((path, path.stat().st_mtime_ns) for path in images)
+    key = repr((stamps, pair_of(images)))
     if key not in _made:
         _made.clear()
-        _made[key] = previewed(pair)
+        pair, photos = pair_and_photos(images)
+        _made[key] = previewed(pair_of(pair)), photos
     return _made[key]

@@ -100,6 +100,7 @@ _JOBS = {
     "Move Seeds or Stroke": "Saatpunkte ziehen oder Strich",
     "Set Up Render": "Bild einrichten",
     "Load Photo": "Foto laden",
+    "Load Seeds": "Saatpunkte laden",
 }
 
 _MISSING = {
@@ -160,6 +161,7 @@ _REPORTS = {
     "{file} holds {count} photos; Load Photo puts all of them on the list": (
         "{file} enthält {count} Fotos; Foto laden setzt sie alle auf die Liste"
     ),
+    "photo: {image}": "Foto: {image}",
     "Photos inside {name}, now on the list of photos: {count}": (
         "Fotos in {name}, jetzt auf der Liste der Fotos: {count}"
     ),

@@ -19,6 +19,10 @@ class GridMesh:
         Pixel of every vertex, in reading order: one vertex per pixel with a return.
     quads : (F, 4) int32
         Vertex indices, counterclockwise as seen from the scanner.
+    edges : (E, 2) int32
+        Vertex indices; every edge of a face once.
+    face_edges : (F, 4) int32
+        Index of the edge from every corner of a face to its next one.
     uv : (F, 4, 2) float32
         Place of every corner in the scan's image, 0..1 from its bottom left corner. A face across the seam of a full
         turn goes on beyond 1.
@@ -27,6 +31,8 @@ class GridMesh:
     rows: np.ndarray
     cols: np.ndarray
     quads: np.ndarray
+    edges: np.ndarray
+    face_edges: np.ndarray
     uv: np.ndarray
 
 
@@ -59,7 +65,9 @@ def grid_mesh(scan, max_incidence_deg=MAX_INCIDENCE_DEG):
     for corner, (down, right) in enumerate(CORNERS):
         uv[:, corner, 0] = (col + (right + 0.5)) / width
         uv[:, corner, 1] = 1 - (row + (down + 0.5)) / height
-    return GridMesh(rows=rows, cols=cols, quads=quads_of(mask, vertex), uv=uv)
+    edges, face_edges = _edges_of(mask, vertex, closed=scan.full_turn)
+    quads = quads_of(mask, vertex)
+    return GridMesh(rows=rows, cols=cols, quads=quads, edges=edges, face_edges=face_edges, uv=uv)
 
 
 CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
@@ -104,6 +112,30 @@ def quads_of(mask, vertex):
     for corner, (down, right) in enumerate(CORNERS):
         quads[:, corner] = vertex[down : down + height, right : right + width][mask]
     return quads
+
+
+def _edges_of(mask, vertex, *, closed):
+    """``edges`` and ``face_edges`` of `GridMesh`: edges along rows first, then those along columns."""
+    height, width = mask.shape
+    across, down = np.zeros((height + 1, width), bool), np.zeros((height, width + 1), bool)
+    across[:-1] |= mask
+    across[1:] |= mask
+    down[:, :-1] |= mask
+    down[:, 1:] |= mask
+    if closed:
+        down[:, 0] |= down[:, -1]
+        down[:, -1] = False
+    numbers = np.cumsum(np.concatenate([across.ravel(), down.ravel()]), dtype=np.int32) - 1
+    of_across, of_down = numbers[: across.size].reshape(across.shape), numbers[across.size :].reshape(down.shape)
+    if closed:
+        of_down[:, -1] = of_down[:, 0]
+    edges = np.empty((np.count_nonzero(across) + np.count_nonzero(down), 2), np.int32)
+    for end in (0, 1):
+        edges[:, end] = np.concatenate([vertex[:, end : end + width][across], vertex[end : end + height][down]])
+    face_edges = np.empty((np.count_nonzero(mask), 4), np.int32)
+    for corner, number in enumerate((of_down[:, :-1], of_across[1:], of_down[:, 1:], of_across[:-1])):
+        face_edges[:, corner] = number[mask]
+    return edges, face_edges
 
 
 def is_jump(p, q, max_incidence_deg):

@@ -33,6 +33,10 @@ class ObjectArrays:
     coordinates : (3 N,) float32
     corners : (4 F,) int32
         Vertices of the faces, one face after the other.
+    edges : (2 E,) int32
+        Vertices of the edges, one edge after the other.
+    corner_edges : (4 F,) int32
+        The edge from every corner to the next one of its face.
     uv : (8 F,) float32
         Of the corners.
     values : dict of (N,) float32 or int32
@@ -53,6 +57,8 @@ class ObjectArrays:
     pose: np.ndarray
     coordinates: np.ndarray
     corners: np.ndarray
+    edges: np.ndarray
+    corner_edges: np.ndarray
     uv: np.ndarray
     values: dict[str, np.ndarray]
     gray: np.ndarray
@@ -111,6 +117,8 @@ def object_arrays(scan, *, units_per_meter=1.0, max_incidence_deg=MAX_INCIDENCE_
         pose=pose,
         coordinates=((scan.points[valid] - center) * units_per_meter).astype(np.float32).ravel(),
         corners=mesh.quads.ravel(),
+        edges=mesh.edges.ravel(),
+        corner_edges=mesh.face_edges.ravel(),
         uv=mesh.uv.ravel(),
         values={
             "reflectance": scan.reflectance[valid],

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...errors import ImageError, ScanError
 from ...messages import Message
-from ..images import read_measured
+from ..images import image_size, read_measured
 from .image_pair import full_code
 from .scan_json import check_description, write_scan_json
 
@@ -97,6 +97,35 @@ def table_of(text):
     except ValueError:
         raise ScanError('range table: expected pairs such as "0 0.5, 255 12", found {found}', found=text) from None
     return table or None
+
+
+def pair_and_photos(images):
+    """Tell the images of a pair, which are of one size, from photos that were picked with them.
+
+    Parameters
+    ----------
+    images : sequence of Path
+
+    Returns
+    -------
+    pair, photos : tuple of Path
+        Where no two or three images stand out as a pair, all are in ``pair``.
+
+    Raises
+    ------
+    ImageError
+        If one cannot be read.
+    """
+    of_size = {}
+    for image in images:
+        of_size.setdefault(image_size(image), []).append(image)
+    groups = [group for group in of_size.values() if len(group) in (2, 3)]
+    if len(groups) > 1:
+        # Photos of one camera are of one size, too, but all of them have colors.
+        groups = [group for group in groups if sum(map(_has_colors, group)) <= len(group) - 2]
+    if len(groups) != 1:
+        return tuple(images), ()
+    return tuple(groups[0]), tuple(image for image in images if image not in groups[0])
 
 
 def previewed(pair):
