@@ -28,6 +28,9 @@ class RandomActs:
     def act(self):
         """Do one act, chosen by weight; a generator that returns its name."""
         act = self.random.choices(*zip(*ACTS_AND_WEIGHTS, strict=True))[0]
+        # Without a scan nearly everything is refused.
+        if self.window.scan is None and self.random.random() < 0.2:
+            act = RandomActs.import_scan
         try:
             going_on = act(self)
             if going_on is not None:
