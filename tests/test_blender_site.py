@@ -378,6 +378,23 @@ def test_cancelling_the_match_leaves_all_scans_as_they_were(seeded, cancelled, t
     assert everything(seeded) == before
 
 
+def test_scans_that_are_joined_keep_their_colors_and_are_no_longer_taken_for_one_scan(seeded):
+    select(seeded, "wall", "floor")
+    seeded.ops.reflcolor.colorize()
+    colors = [colors_of(seeded.data.objects[name]) for name in ("wall", "floor")]
+    seeded.ops.object.join()
+    np.testing.assert_array_equal(colors_of(seeded.data.objects["wall"]), np.concatenate(colors))
+    with pytest.raises(RuntimeError, match="another mesh was joined to the scan; undo that, or separate them by mater"):
+        seeded.ops.reflcolor.colorize()
+
+
+def colors_of(obj):
+    attribute = obj.data.color_attributes["Colorized"].data
+    rgba = np.empty(4 * len(attribute), np.float32)
+    attribute.foreach_get("color_srgb", rgba)
+    return rgba
+
+
 @pytest.fixture(scope="module")
 def found_in_room(installed_blender, tmp_path_factory):
     """What a photo gives in a scan, and in another from whose corner it is not recognized without the first."""
