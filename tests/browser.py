@@ -25,9 +25,10 @@ class Browser:
             for number, end in zip((3, 4), ends, strict=True):
                 os.dup2(end, number)
 
-        self._process = subprocess.Popen(
-            line, preexec_fn=numbered, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
+        # Its processes talk to each other by sockets; under `make test-no-network`, these are not of the project.
+        environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        self._process = subprocess.Popen(line, preexec_fn=numbered, close_fds=False, env=environment, **quiet)
         os.close(to_read)
         os.close(to_write)
         self._lines, self._count, self._session = b"", 0, None
