@@ -101,20 +101,20 @@ def measured(group, arguments):
             continue
         row, by_tenth, picture = figures(pair, matching)
         rows.append(row)
-        by_confidence.append([np.nan if value is None else value for value in by_tenth])
+        by_confidence.append(by_tenth)
         print(f"{pair.scan.name:14}" + "".join(f"{value:10.3f}" for value in row), flush=True)
         if arguments.pictures:
             arguments.pictures.mkdir(parents=True, exist_ok=True)
             write_png(arguments.pictures / f"{group} {pair.scan.name}.png", picture)
     if rows:
         print(f"{'mean':14}" + "".join(f"{value:10.3f}" for value in np.nanmean(rows, axis=0)), flush=True)
-        print("by confidence " + "".join(f"{_mean(values):10.2f}" for values in zip(*by_confidence, strict=True)))
+        _print_by_confidence(by_confidence)
 
 
-def _mean(values):
-    """The mean of those that are numbers."""
-    known = [value for value in values if np.isfinite(value)]
-    return np.mean(known) if known else np.nan
+def _print_by_confidence(errors):
+    """Print the mean, over all pairs, of the errors by tenths of the confidence."""
+    known = [[error for error in tenth if error is not None] for tenth in zip(*errors, strict=True)]
+    print("by confidence " + "".join(f"{np.mean(tenth) if tenth else np.nan:10.2f}" for tenth in known), flush=True)
 
 
 def _matched(group, arguments):
@@ -210,7 +210,8 @@ def step(rgb, seen, scan, known):
 
 def hidden():
     """Print the error of half of what photos show, hidden."""
-    print(f"\nhidden\n{'pair':40}{'ours':>10}{'mean color':>12}{'Levin':>10}", flush=True)
+    print(f"\nhidden\n{'pair':40}{'ours':>10}{'mean color':>12}{'Levin':>10}{'rank':>10}", flush=True)
+    by_confidence = []
     for name, scan, truth, known in _real_pairs():
         cols = np.nonzero(known)[1]
         left = known & (np.arange(scan.shape[1]) < np.median(cols))
@@ -224,12 +225,15 @@ def hidden():
             rows, cols = np.nonzero(given)
             few = np.linspace(0, len(rows) - 1, min(len(rows), _HIDDEN_SEEDS)).astype(int)
             seeds = Seeds(rows[few], cols[few], truth[rows[few], cols[few]], reason=["pose"] * len(few))
-            ours = colorize(scan, seeds, Settings.preset("Natural"), observed).rgb
+            result = colorize(scan, seeds, Settings.preset("Natural"), observed)
+            ours, sure = result.rgb, reliability(result.confidence, result.rgb, replace(scan, color=truth), known)
+            by_confidence.append(sure["by_tenth"])
             constant = np.broadcast_to(np.rint(truth[given].mean(axis=0)).astype(np.uint8), truth.shape)
             peer = _levin(scan, Seeds(rows, cols, truth[rows, cols]))
             errors = [error(rgb, truth, asked) for rgb in (ours, constant, peer)]
-            line = f"{errors[0]:10.2f}{errors[1]:12.2f}{errors[2]:10.2f}"
+            line = f"{errors[0]:10.2f}{errors[1]:12.2f}{errors[2]:10.2f}{sure['rank_correlation']:10.2f}"
             print(f"{name + ', ' + label:40}"[:40] + line, flush=True)
+    _print_by_confidence(by_confidence)
 
 
 def _real_pairs():

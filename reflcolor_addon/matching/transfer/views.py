@@ -19,6 +19,9 @@ _OTHER_THING, _OUTLINE, _OFF = 0.1, 3, 2.0
 _ASIDE = 0.02
 # The steepest surface, tangent of the angle between normal and view, whose slope is allowed for.
 _STEEPEST = 5.0
+# A photo is halved again and again, and colors are taken from the size whose interpolated pixels blur most nearly as a
+# pixel of the scan does: a square of side s has a variance of s^2 / 12, interpolated pixels have one of 1 / 4.
+_AS_BLURRED = np.float32(np.sqrt(2 / 3))
 # Files hold black where they have nothing: in parts of at least this share of the photo.
 _DARKEST, _LEAST_NOTHING = 6, 1e-3
 # Levels of contrast that tell nothing of how sharp a photo is.
@@ -182,7 +185,7 @@ def colors_at(photo, xy, footprint):
     import cv2
 
     colors = np.zeros((len(xy), 3), np.uint8)
-    level = np.floor(np.log2(np.maximum(footprint, 1))).astype(np.int8)
+    level = np.floor(np.log2(np.maximum(footprint * _AS_BLURRED, 1))).astype(np.int8)
     image, last = photo.rgb, int(level.max(initial=0))
     for number in range(last + 1):
         own = np.flatnonzero(level == number)
