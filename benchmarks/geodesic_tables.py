@@ -31,8 +31,8 @@ def head(title, *cells):
     row(*["---"] * len(cells))
 
 
-def apart(*arguments, module="benchmarks.geodesic_memory", root=ROOT):
-    """What a module of a checkout prints of one case, in a process of its own."""
+def apart(*arguments, module="benchmarks.geodesic_memory"):
+    """What a module prints of one case, in a process of its own."""
     command = [sys.executable, "-m", module, *map(str, arguments)]
-    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=True)
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     return json.loads(done.stdout)

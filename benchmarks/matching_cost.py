@@ -3,17 +3,20 @@
     python -m benchmarks.matching_cost BASE [ROUNDS]
 
 prints them for all cases beside an older build, of which BASE is a checkout; the two take turns, figures are medians.
+"Finding" is the part until cameras are found or photos refused; what follows transfers colors.
 
     python -m benchmarks.matching_cost SCAN PHOTO MODE
 
 SCAN is a scan of geodesic_cases.SCANS, enlarged; PHOTO any real scan, whose colors are the photo, or "warped" for the
 scan's own, warped; MODE is verified or paper. Linux alone tells the peak.
 
-Prints JSON: seconds, seconds of the processor, bytes at the peak beyond what was there before, the longest seconds
-between two words of progress, and what is said of the photo.
+Prints JSON: seconds, seconds of the processor, in all and until cameras are found, bytes at the peak beyond what was
+there before, the longest seconds between two words of progress, and what is said of the photo.
 """
 
 import json
+import os
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -23,7 +26,7 @@ import numpy as np
 
 from benchmarks import geodesic_cases, matching_pairs, real_scans
 from benchmarks.geodesic_memory import status
-from benchmarks.geodesic_tables import ROOT, apart, head, row
+from benchmarks.geodesic_tables import ROOT, head, row
 from reflcolor_addon import Settings
 from reflcolor_addon.matching import match_photos
 
@@ -49,32 +52,28 @@ def enlarged_photo(scan_name, photo_name):
 
 def beside(base, rounds):
     """Print the cost of every case, verified, beside that of an older build."""
-    cells = (
-        "seconds before",
-        "now",
-        "ratio",
-        "processor before",
-        "now",
-        "ratio",
-        "MB before",
-        "now",
-        "said before",
-        "now",
-    )
-    head(f"760 x 1135 and 12 megapixels, medians of {rounds} runs", "scan, photo", *cells)
+    names = {"finding": "finding, processor", "processor": "all, processor", "seconds": "all, clock", "bytes": "MB"}
+    columns = [cell for name in names.values() for cell in (f"{name}: before", "now", "ratio")]
+    head(f"760 x 1135 and 12 megapixels, medians of {rounds} runs", "scan, photo", *columns, "said before", "now")
     for case in CASES:
         runs = [[], []]
         for _ in range(rounds):
             for root, found in zip((base, ROOT), runs, strict=True):
-                found.append(apart(*case, "verified", module="benchmarks.matching_cost", root=root))
-        figures = []
-        for key, digits in (("seconds", 1), ("processor", 1), ("bytes", 0)):
+                found.append(_of_build(root, case))
+        cells = []
+        for key in names:
             before, now = (np.median([run[key] for run in found]) for found in runs)
-            unit = 1e6 if key == "bytes" else 1
-            figures += [f"{value / unit:.{digits}f}" for value in (before, now)]
-            if key != "bytes":
-                figures.append(f"{now / before:.2f}")
-        row(", ".join(case), *figures, *(found[0]["note"] for found in runs))
+            shown = (f"{value / 1e6:.0f}" if key == "bytes" else f"{value:.1f}" for value in (before, now))
+            cells += [*shown, f"{now / before:.2f}"]
+        row(", ".join(case), *cells, *(found[0]["note"] for found in runs))
+
+
+def _of_build(root, case):
+    """What this file prints of one case for the build in a checkout."""
+    environment = os.environ | {"PYTHONPATH": str(root), "PYTHONSAFEPATH": "1"}
+    command = [sys.executable, __file__, *case, "verified"]
+    done = subprocess.run(command, cwd=root, env=environment, capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
 
 
 def main():
@@ -84,19 +83,25 @@ def main():
     scan_name, photo_name, mode = sys.argv[1:]
     scan, photo = geodesic_cases.whole_scan(scan_name, 1), enlarged_photo(scan_name, photo_name)
     Path("/proc/self/clear_refs").write_text("5")
-    before, processor, told = status("VmRSS"), time.process_time(), [time.perf_counter()]
-    matching = match_photos(
-        scan, [photo], Settings(matching=mode), progress=lambda fraction, text: told.append(time.perf_counter())
-    )
+    before, processor, told, found = status("VmRSS"), time.process_time(), [time.perf_counter()], []
+
+    def progress(fraction, text):
+        told.append(time.perf_counter())
+        if "transferring colors" in str(text):
+            found.append(time.process_time() - processor)
+
+    matching = match_photos(scan, [photo], Settings(matching=mode), progress=progress)
     told.append(time.perf_counter())
-    found = {
+    processor = time.process_time() - processor
+    cost = {
         "seconds": told[-1] - told[0],
-        "processor": time.process_time() - processor,
+        "processor": processor,
+        "finding": found[0] if found else processor,
         "bytes": status("VmHWM") - before,
         "silence": max(np.diff(told)),
         "note": matching.photos[0].note,
     }
-    print(json.dumps(found))
+    print(json.dumps(cost))
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ from .verification import (
     beyond_chance,
     judged,
     known_before,
+    searched,
 )
 
 # Pixels, tile, radius, blur and spread from guess to guess: a direction from the scanner is found nearly exactly, and
@@ -206,7 +207,7 @@ def register(views, photo, *, step=lambda text: None):
     if best.accepted and best.model.kind == "pose":
         model, proof = beside(views, photo, best.model, best.evidence, step=step)
         best = replace(best, model=model, evidence=proof)
-    return best.beyond_chance(views, photo)
+    return replace(best, evidence=searched(best.evidence)).beyond_chance(views, photo)
 
 
 def confirmed(views, photo, model, pairs=None):

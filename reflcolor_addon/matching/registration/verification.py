@@ -37,8 +37,10 @@ _APART, _DISTINCT = 3.0, 0.3
 _NEEDED_OF_DISTINCT = 0.7
 _ACCEPTED_MEAN = 0.7
 # Tiles half overlap: four in place tell what one point does, and a camera that may be anywhere goes through any four.
-# On a scan of few tiles, ten in place were once found for a wrong photo.
-LEAST_PARTS, _TILES_AT_SCANNER, _TILES_ANYWHERE = 10, 12, 30
+# For wrong photos, up to fifteen in place have been found, and a strength of 6 where enough tiles were in place: what
+# was searched for among many must be stronger than that. Right photos of real scans begin at 19 tiles and 8.8.
+LEAST_PARTS, _TILES_AT_SCANNER, _TILES_ANYWHERE = 10, 16, 30
+_NEEDED_OF_SEARCHED = 7.0
 # Of a photo whose parts are exchanged: whether it is mirrored, and what share of it is moved down and to the right.
 # More are tried where the verdict hangs on it: where what these ask for is within a factor of the strength.
 _EXCHANGED = (
@@ -149,6 +151,11 @@ def evidence(scan_image, photo, model):
 def known_before(proof):
     """Return the `Evidence` with the need of a model without any freedom: nothing was searched for it."""
     return replace(proof, needed=_NEEDED_AT_SCANNER, needed_tiles=LEAST_PARTS)
+
+
+def searched(proof):
+    """Return `Evidence` that need be what the best of all models that were tried needs, so that it is no chance."""
+    return replace(proof, needed=max(proof.needed, _NEEDED_OF_SEARCHED))
 
 
 def beyond_chance(proof, scan_image, photo, model):
