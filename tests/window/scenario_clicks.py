@@ -128,13 +128,13 @@ def scenario_image_pair_with_colors_of_its_own(window):
 def scenario_image_pair_with_a_photo_of_its_own(window):
     folder = Path(window.output("pair"))
     folder.mkdir(exist_ok=True)
-    for name in ("depth16_mm.png", "ir16.png", "color_1280x720.jpg"):
-        shutil.copy(window.data(f"k4a_mug/{name}"), folder / name)
+    for name in ("cones.scan.json", "cones.range.png", "cones.reflectance.png", "photo.jpg"):
+        shutil.copy(window.example(name), folder / name)
     yield from open_steps(window)
     yield from window.click_button("reflcolor.import_scan")
     yield from open_files(window, str(folder))
-    yield from imported(window, "ir16")
-    window.equal([photo.image.name for photo in window.scene.reflcolor.photos], ["color_1280x720.jpg"], "photos")
+    yield from imported(window, "cones")
+    window.equal([photo.image.name for photo in window.scene.reflcolor.photos], ["photo.jpg"], "photos")
     yield from window.click_button("reflcolor.match_photos")
     yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 50, 200, "seeds are found in the photo")
     yield from window.screenshot("matched")
