@@ -25,6 +25,7 @@ _registration = Registration(
         "add_preset",
         "colorize",
         "make_texture",
+        "make_light_mesh",
         "evaluate",
         "show_look",
         "copy_provenance",

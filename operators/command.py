@@ -4,6 +4,7 @@ import bpy
 
 from ..reflcolor_addon.batch.blender_tasks import BlenderTasks
 from ..reflcolor_addon.cli import main as cli
+from .scene.decimation import decimate
 from .scene.provenance_file import read_provenance
 from .scene.simulate_file import simulate_file
 from .scene.write_results import write_results
@@ -23,6 +24,7 @@ def run(argv, command=None):
     tasks = BlenderTasks(
         version=bpy.app.version_string,
         write_scene=write_results,
+        decimate=decimate,
         simulate=simulate_file,
         read_provenance=read_provenance,
         command=command,

@@ -14,6 +14,7 @@ from ..reflcolor_addon.files.writers.scans_back import SCAN_FILES, write_scans_b
 from .scene import polls
 from .scene.colored_scan import colored_scans_reader
 from .scene.object_surface import surface_of_object
+from .scene.photo_texture import texture_file
 from .scene.provenance import import_record
 from .scene.texts import report_text, shown
 from .scene.usd import write_usd
@@ -83,10 +84,15 @@ class REFLCOLOR_OT_export_scan(JobOperator, bpy.types.Operator, ExportHelper):
                 path,
                 write_scans_back(read_scans(cancelled), path, progress=progress, cancelled=cancelled),
             )
-        surfaces = [surface_of_object(context, obj) for obj in objects]
+        textures = [texture_file(obj) if suffix == ".glb" else None for obj in objects]
+        surfaces = [
+            surface_of_object(context, obj, textured=texture is not None)
+            for obj, texture in zip(objects, textures, strict=True)
+        ]
+        options = {"textures": textures} if suffix == ".glb" else {}
 
         def work(progress, cancelled):
-            MESH_WRITERS[suffix](surfaces, path, progress=progress, cancelled=cancelled)
+            MESH_WRITERS[suffix](surfaces, path, progress=progress, cancelled=cancelled, **options)
             return path, []
 
         return work

@@ -42,6 +42,7 @@ class Colorize(Step):
         row.scale_y = 1.5
         draw_act(row, "reflcolor.colorize", "Colorize", icon="COLOR")
         draw_act(layout, "reflcolor.make_texture", "Make Texture", icon="TEXTURE")
+        draw_act(layout, "reflcolor.make_light_mesh", "Make Light Mesh", icon="MOD_DECIM")
         column = layout.column()
         column.row().prop(settings, "picture_look", expand=True)
         column.prop(settings, "picture_filled")

@@ -11,7 +11,7 @@ ACTS = (
     ("take_seed_tool", "add_seed", "move_seed", "keep_gray", "lock_seeds", "select_all_seeds"),
     ("remove_seed", "delete_seeds", "clear_seeds"),
     ("load_seeds", "save_seeds"),
-    ("colorize", "make_texture", "evaluate", "leave_preview", "set_up_render"),
+    ("colorize", "make_texture", "make_light_mesh", "evaluate", "leave_preview", "set_up_render"),
     ("read_notice", "read_verdict", "copy_provenance"),
     ("export_scan", "simulate"),
 )

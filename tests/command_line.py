@@ -47,7 +47,7 @@ def blender_tasks(**acts):
         raise AssertionError("was not to be called")
 
     return BlenderTasks(
-        version="5.2.2 LTS", **dict.fromkeys(("write_scene", "simulate", "read_provenance"), cannot) | acts
+        version="5.2.2 LTS", **dict.fromkeys(("write_scene", "decimate", "simulate", "read_provenance"), cannot) | acts
     )
 
 

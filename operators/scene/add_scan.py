@@ -56,11 +56,12 @@ def add_scan_object(context, arrays, images=None):
     state = obj.reflcolor
     state.rows, state.cols = arrays.shape
     state.source = str(arrays.source or "")
-    reflectance, measured = images or scan_images(arrays)
-    state.reflectance_image = write_packed(None, f"{arrays.name} Reflectance", reflectance, is_data=False)
-    state.range_image = write_packed(None, f"{arrays.name} Range", measured, is_data=True)
-    for image in (state.reflectance_image, state.range_image):
-        image.display_aspect = (arrays.pixel_aspect, 1.0)
+    if arrays.reflectance_image is not None:
+        reflectance, measured = images or scan_images(arrays)
+        state.reflectance_image = write_packed(None, f"{arrays.name} Reflectance", reflectance, is_data=False)
+        state.range_image = write_packed(None, f"{arrays.name} Range", measured, is_data=True)
+        for image in (state.reflectance_image, state.range_image):
+            image.display_aspect = (arrays.pixel_aspect, 1.0)
     add_colors(obj, GRAY, arrays.gray)
     if arrays.scanned is not None:
         add_colors(obj, SCANNED, arrays.scanned)
@@ -76,7 +77,7 @@ def add_scan_object(context, arrays, images=None):
 
 def _fill_mesh(mesh, arrays):
     """Vertices, faces, UV map and attributes, in bulk."""
-    corners, faces = arrays.corners, arrays.corners.size // 4
+    corners, faces = arrays.corners, arrays.corners.size // arrays.sides
     mesh.vertices.add(arrays.coordinates.size // 3)
     mesh.edges.add(arrays.edges.size // 2)
     mesh.loops.add(corners.size)
@@ -87,7 +88,7 @@ def _fill_mesh(mesh, arrays):
         mesh.attributes[".edge_verts"].data.foreach_set("value", arrays.edges)
         mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
         mesh.attributes[".corner_edge"].data.foreach_set("value", arrays.corner_edges)
-        mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, 4, dtype=np.int32))
+        mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, arrays.sides, dtype=np.int32))
     # The edges are given: finding them would make the window stand still for most of an import.
     mesh.update()
     mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", arrays.uv)

@@ -12,36 +12,42 @@ _MOST_REMEMBERED = 4
 _remembered = OrderedDict()
 
 
-def write_image(image, name, pixels, *, is_data):
-    """Put pixels into an image and keep it in the .blend; ``image`` is replaced in place, or made if None.
+def packed_pixels(pixels, name):
+    """Return pixels as the PNG that a .blend keeps; a thread may call it: no bpy.
 
     Parameters
     ----------
-    image : bpy.types.Image or None
-    name : str
-        For a new image.
     pixels : (H, W) float32 of 0..1, or (H, W, 3) uint8
-    is_data : bool
-        Whether the values are no colors.
+    name : str
+        Of the image.
 
     Returns
     -------
-    bpy.types.Image
+    bytes
     """
-    return write_packed(image, name, packed_pixels(pixels, name), is_data=is_data)
-
-
-def packed_pixels(pixels, name):
-    """Return pixels, as `write_image` takes them, as the PNG that a .blend keeps; a thread may call it: no bpy."""
     if pixels.dtype != np.uint8:
         pixels = (np.clip(pixels, 0, 1) * np.float32(255) + np.float32(0.5)).astype(np.uint8)
     return png_bytes(pixels, name)
 
 
 def write_packed(image, name, data, *, is_data):
-    """Put what `packed_pixels` gave into an image, which is replaced in place, or made if None; return it.
+    """Put what `packed_pixels` gave into an image, and keep it in the .blend.
 
     Blender takes the pixels out of it when they are first needed.
+
+    Parameters
+    ----------
+    image : bpy.types.Image or None
+        Is replaced in place; None: a new one is made.
+    name : str
+        For a new image.
+    data : bytes
+    is_data : bool
+        Whether the values are no colors.
+
+    Returns
+    -------
+    bpy.types.Image
     """
     if image is None:
         image = bpy.data.images.new(name, 1, 1, alpha=False, is_data=is_data)
@@ -64,7 +70,7 @@ def put_pixels(image, name, stored, size, *, is_data=False):
 
 
 def stored_pixels(pixels):
-    """Return (4 H W,) float32, as Blender stores an image, of pixels as `write_image` takes them; touches no bpy."""
+    """Return (4 H W,) float32, as Blender stores an image, of pixels as `packed_pixels` takes them; touches no bpy."""
     height, width = pixels.shape[:2]
     rgba = np.ones((height, width, 4), np.float32)
     if pixels.dtype == np.uint8:

@@ -49,11 +49,34 @@ def show_image_in_material(material, image, uv_map):
     tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
 
 
+def shown_image(material):
+    """Return the image that a material shows instead of its mesh's colors; None where it shows those."""
+    image, _ = _image_and_colors(material)
+    return image.image if image is not None and image.outputs["Color"].is_linked else None
+
+
+def show_image_again(material):
+    """Let a material that was switched to its mesh's colors show its image again."""
+    image, colors = _image_and_colors(material)
+    _relink(material, colors, image)
+
+
 def _show_no_image(material):
     """Let a material that shows such an image show its mesh's colors again."""
-    tree = material.node_tree
-    node = tree.nodes.get(_TEXTURE) if tree else None
-    colors = next((node for node in tree.nodes if node.type in ("ATTRIBUTE", "VERTEX_COLOR")), None) if node else None
-    if colors is not None:
-        for link in list(node.outputs["Color"].links):
-            tree.links.new(colors.outputs["Color"], link.to_socket)
+    image, colors = _image_and_colors(material)
+    _relink(material, image, colors)
+
+
+def _image_and_colors(material):
+    """The nodes of a material's image and of its mesh's colors; None where it has none."""
+    nodes = material.node_tree.nodes if material.node_tree else {}
+    colors = next((node for node in nodes.values() if node.type in ("ATTRIBUTE", "VERTEX_COLOR")), None)
+    return nodes.get(_TEXTURE), colors
+
+
+def _relink(material, before, after):
+    """Let one node's color go wherever that of another went."""
+    if before is None or after is None:
+        return
+    for link in list(before.outputs["Color"].links):
+        material.node_tree.links.new(after.outputs["Color"], link.to_socket)

@@ -6,16 +6,17 @@ from contextlib import contextmanager
 import numpy as np
 
 from ...reflcolor_addon.errors import ScanError
-from ...reflcolor_addon.scan.mesh_surface import MeshSurface
-from .scan_object import CENTER, SHIFT, shown_in_renders
+from ...reflcolor_addon.scan.mesh_surface import MeshSurface, split_at_seams
+from .scan_object import CENTER, SHIFT, UV_MAP, shown_in_renders
 
 _DTYPES = {"FLOAT": np.float32, "INT": np.int32}
 
 
-def surface_of_object(context, obj):
+def surface_of_object(context, obj, *, textured=False):
     """Return the MeshSurface of a scan's object, with the colors that renders show.
 
-    It is in meters, with the kilometers that were taken off the scene added again.
+    It is in meters, with the kilometers that were taken off the scene added again. Where it is to be ``textured``, it
+    has a place on the image for every vertex; a vertex with several places is there once for each.
 
     Raises
     ------
@@ -29,16 +30,25 @@ def surface_of_object(context, obj):
     pose[:3, 3] = pose[:3, 3] * meters + shift - pose[:3, :3] @ center
     with _evaluated(context, obj) as mesh:
         faces, triangles = _faces(mesh)
+        points, rgb, values = _values(mesh.vertices, "co", np.float32, 3), _colors(mesh, obj), _attributes(mesh)
+        placed = {}
+        if textured:
+            split = _split(mesh, triangles)
+            points, rgb = points[split.vertex], rgb[split.vertex]
+            values = {name: array[split.vertex] for name, array in values.items()}
+            faces, triangles = [split.triangles], split.triangles
+            placed = {"uv": split.uv, "same": split.same}
         return MeshSurface(
             name=obj.name,
             shape=(obj.reflcolor.rows, obj.reflcolor.cols),
             pose=pose,
             center=center,
-            points=_values(mesh.vertices, "co", np.float32, 3).astype(np.float64) * meters + center,
-            rgb=_colors(mesh, obj),
-            values=_attributes(mesh),
+            points=points.astype(np.float64) * meters + center,
+            rgb=rgb,
+            values=values,
             faces=faces,
             triangles=triangles,
+            **placed,
         )
 
 
@@ -86,3 +96,10 @@ def _faces(mesh):
     faces = [corners[starts[counts == count][:, None] + np.arange(count)] for count in np.unique(counts).tolist()]
     mesh.calc_loop_triangles()
     return faces, _values(mesh.loop_triangles, "vertices", np.int32, 3)
+
+
+def _split(mesh, triangles):
+    """The vertices of a mesh, once for each of their places on its image."""
+    corners = _values(mesh.loop_triangles, "loops", np.int32, 3)
+    uv = _values(mesh.uv_layers[UV_MAP].uv, "vector", np.float32, 2)[corners]
+    return split_at_seams(len(mesh.vertices), triangles, uv)

@@ -3,7 +3,7 @@
 import bpy
 
 from .photo_list import photo_settings
-from .scan_object import COLORIZED
+from .scan_object import COLORIZED, is_light
 from .texts import report_text, tip
 
 
@@ -33,6 +33,11 @@ def has_own_scan(cls, context):
 def has_editable_scan(cls, context):
     """A scan's object is active, and its mesh can be written to."""
     return has_scan(cls, context) and nothing_missing(cls, closed_mesh(scan_object(context)))
+
+
+def has_whole_scan(cls, context):
+    """A scan's object is active, and it has the scan's own mesh, which can be read."""
+    return has_editable_scan(cls, context) and nothing_missing(cls, light_mesh(scan_object(context)))
 
 
 def has_seeds(cls, context):
@@ -73,7 +78,12 @@ def foreign_seeds(obj):
     """Return what to do before this file keeps what becomes of a scan's seeds; None if it does."""
     if obj.library is not None:
         return tip("The scan is linked from another file; make it local or a library override first")
-    return None
+    return light_mesh(obj)
+
+
+def light_mesh(obj):
+    """Return what to do where a scan has to be a whole one; None if it is."""
+    return tip("This is a light mesh; select the scan itself") if is_light(obj) else None
 
 
 def closed_mesh(obj):

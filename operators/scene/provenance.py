@@ -73,6 +73,13 @@ def record_provenance(obj, report):
         record_import(obj, report["scan"], [entry for entry in report["inputs"] if entry["role"] == "scan"])
 
 
+def copy_records(obj, other):
+    """Keep with another object, too, where an object's scan and colors are from."""
+    for name in (PROVENANCE, _IMPORTED):
+        if name in obj:
+            other[name] = obj[name]
+
+
 def provenance_text(obj):
     """Return the report on the object's colors as JSON; None where there is none."""
     text = obj.get(PROVENANCE)

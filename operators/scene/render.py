@@ -10,7 +10,7 @@ from ...reflcolor_addon.view.picture import BACKGROUND, LIGHT_FROM
 from .collections import PICTURE, own_collection
 from .nodes import node_tree_of
 from .picture_material import give_look
-from .polls import closed_mesh
+from .polls import closed_mesh, light_mesh
 from .shown_surface import add_surface, has_surface, remove_surface, switch_surface
 from .viewpoint import covered_by_sidebar, view_of
 
@@ -83,7 +83,11 @@ def scans_of(scene):
 
 def fillable_scans(scene):
     """Return those of the scene's scans that can be written to; the others are shown as they were measured."""
-    return [obj for obj in scans_of(scene) if closed_mesh(obj) is None and not obj.library and len(obj.data.vertices)]
+    return [
+        obj
+        for obj in scans_of(scene)
+        if closed_mesh(obj) is None and light_mesh(obj) is None and not obj.library and len(obj.data.vertices)
+    ]
 
 
 def _is_set_up(scene):

@@ -28,6 +28,8 @@ SHIFT = "reflcolor_shift"
 CENTER, MAX_INCIDENCE = "reflcolor_center", "reflcolor_max_incidence"
 # Custom property of meshes: how many vertices the scan has.
 RETURNS = "reflcolor_returns"
+# Custom property of light meshes: how many returns the scan has that one was made of.
+LIGHT = "reflcolor_light"
 # Custom property of objects whose colors are all guesses, not seen by any verified photo.
 GUESSED = "reflcolor_guessed"
 KINDS = {np.float32: "FLOAT", np.int32: "INT"}
@@ -76,8 +78,13 @@ def grid_indices(obj):
     Raises
     ------
     ScanError
-        If the attributes are gone or point outside the grid, or if vertices of another mesh were joined to it.
+        If the attributes are gone or point outside the grid, if the mesh is a light one, or if vertices of another
+        mesh were joined to it.
     """
+    if is_light(obj):
+        raise ScanError(
+            "{name}: is a light mesh, which can be shown and exported; select the scan itself", name=obj.name
+        )
     if is_joined(obj):
         raise ScanError(
             "{name}: another mesh was joined to the scan; undo that, or separate them by material", name=obj.name
@@ -95,6 +102,11 @@ def at_vertices(obj, *images):
     # Far faster than by rows and columns; the window waits for it.
     pixels = rows * np.int32(obj.reflcolor.cols) + cols
     return [image.reshape(-1, *image.shape[2:]).take(pixels, axis=0) for image in images]
+
+
+def is_light(obj):
+    """Whether an object has a light mesh instead of a scan's own."""
+    return LIGHT in obj.data
 
 
 def is_joined(obj):

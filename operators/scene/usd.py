@@ -4,7 +4,7 @@ from contextlib import contextmanager
 
 import bpy
 
-from .nodes import show_in_material
+from .nodes import show_image_again, show_in_material, shown_image
 from .scan_object import SHOWN_IN_RENDERS, add_colors, colors_of, shown_in_renders
 from .shown_surface import as_measured
 
@@ -43,6 +43,8 @@ def write_usd(context, objects, path):
 def _displayed(objects):
     """Within the block the colors that renders show have the name that USD gives to what is displayed."""
     shown = [(obj, shown_in_renders(obj)) for obj in objects]
+    materials = {material for obj in objects for material in obj.data.materials if material is not None}
+    with_image = [material for material in materials if shown_image(material) is not None]
     for obj, name in shown:
         add_colors(obj, _DISPLAY_COLOR, colors_of(obj, name))
         for material in filter(None, obj.data.materials):
@@ -54,6 +56,8 @@ def _displayed(objects):
             for material in filter(None, obj.data.materials):
                 show_in_material(material, name, instead_of=(_DISPLAY_COLOR,))
             obj.data.attributes.remove(obj.data.attributes[_DISPLAY_COLOR])
+        for material in with_image:
+            show_image_again(material)
 
 
 @contextmanager

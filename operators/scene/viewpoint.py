@@ -6,13 +6,35 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-from ...reflcolor_addon.view.framing import frame, frame_in_region, in_world
+from ...reflcolor_addon.view.framing import View, frame, frame_in_region, in_world
 from .scan_object import coordinates_of
+
+# Custom property of light meshes.
+_VIEW = "reflcolor_view"
 
 
 def view_of(obj):
     """Return the framing View of the object of a scan for a picture in the scan's own shape."""
-    return frame(*_points_and_scanners([obj]))
+    kept = kept_view(obj)
+    return frame(*_points_and_scanners([obj])) if kept is None else kept
+
+
+def keep_view(obj, coordinates):
+    """Keep with a light mesh the View of its scan, which has more vertices, at (N, 3) coordinates."""
+    scanner = np.array(obj.matrix_world.translation)
+    view = frame(in_world(coordinates, obj.matrix_world), scanner)
+    to_local = obj.matrix_world.inverted()
+    ends = [tuple(to_local @ Vector(end)) for end in (view.position, view.target)]
+    obj.data[_VIEW] = [*ends[0], *ends[1], view.fov_deg, view.aspect]
+
+
+def kept_view(obj):
+    """Return the View that `keep_view` kept, from where the object is now; None where there is none."""
+    kept = obj.data.get(_VIEW)
+    if kept is None:
+        return None
+    position, target = (np.array(obj.matrix_world @ Vector(kept[first : first + 3])) for first in (0, 3))
+    return View(position=position, target=target, fov_deg=kept[6], aspect=kept[7])
 
 
 def show_imported(context, objects):

@@ -10,10 +10,12 @@ from ...reflcolor_addon.view.shown_surface import shown_surface
 from .add_scan import add_scan_object
 from .blender_errors import blender_reason, path_fault
 from .colorized_object import show_colorization
+from .light_object import add_light_object
 from .photo_colors import keep_cameras, keep_observed, observed_cameras, use_cameras
 from .photo_texture import show_texture
 from .provenance import record_provenance
 from .render import render, set_up_picture
+from .scan_object import COLORIZED
 from .seed_list import append_seeds
 from .usd import write_usd
 
@@ -46,7 +48,7 @@ def write_results(jobs, paths, render_path, picture, progress):
         progress(0.0, "Building the scene")
         obj = _add_object(context, job)
         objects.append(obj)
-        # Filled holes have no place on the texture.
+        # A light mesh has its holes filled; filled holes have no place on a texture.
         if pictured and picture.filled and job.texture is None:
             surfaces[obj.name] = shown_surface(job.scan, drop_mixed=picture.drop_mixed)
     for obj in objects:
@@ -64,6 +66,8 @@ def write_results(jobs, paths, render_path, picture, progress):
 
 
 def _add_object(context, job):
+    if job.light is not None:
+        return _add_light_object(context, job)
     obj = add_scan_object(context, object_arrays(job.scan))
     append_seeds(obj, job.colorization.seeds)
     keep_observed(obj, job.seen())
@@ -73,6 +77,13 @@ def _add_object(context, job):
     show_colorization(obj, job.colorization)
     if job.texture is not None:
         show_texture(obj, job.texture)
+    record_provenance(obj, job.report)
+    return obj
+
+
+def _add_light_object(context, job):
+    found = job.colorization
+    obj = add_light_object(context, job.light, {COLORIZED: found.rgb}, found.values, job.texture, shown=COLORIZED)
     record_provenance(obj, job.report)
     return obj
 

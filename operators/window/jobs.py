@@ -153,18 +153,23 @@ class JobOperator:
     # Whether other events must wait, because the work holds on to the scene.
     blocks_events = False
     _job = None
-    _from_browser = False
+    _with_window = False
 
     def execute(self, context):
-        # After the file browser there is a window to show progress in. A script needs the result at once, and so does
-        # the redo panel: Blender crashes if a repeated operator keeps running.
-        from_browser, self._from_browser = self._from_browser, False
-        return self.start(context) if from_browser else self.run_blocking(context)
+        # After the file browser or a dialog there is a window to show progress in. A script needs the result at once,
+        # and so does the redo panel: Blender crashes if a repeated operator keeps running.
+        with_window, self._with_window = self._with_window, False
+        return self.start(context) if with_window else self.run_blocking(context)
 
     def browse(self, helper, context, event):
         """Open the file browser, by Blender's ImportHelper or ExportHelper; the work goes on in the window after it."""
-        self._from_browser = True
+        self._with_window = True
         return helper.invoke(self, context, event)
+
+    def ask(self, context, _event):
+        """Show the operator's properties in a dialog; the work goes on in the window after it."""
+        self._with_window = True
+        return context.window_manager.invoke_props_dialog(self, confirm_text=self.bl_label)
 
     def invoke(self, context, _event):
         return self.start(context)

@@ -18,6 +18,8 @@ class BlenderTasks:
         Called as ``write_scene(jobs, paths, render, picture, progress)`` with an iterable of colorized `ScanJob`, each
         to become an object that keeps its report, the .blend and .usd files to write, the file of the picture to render
         or None, and the `Picture` that says how it looks; raises OutputError.
+    decimate : callable
+        As `light_mesh` takes it.
     simulate : callable
         Called as ``simulate(request, progress, written)`` with a `SimulationRequest`; adds every file that it wrote to
         the list ``written``. Raises ReflcolorError, and UsageError where something that was asked for is not in the
@@ -31,6 +33,7 @@ class BlenderTasks:
 
     version: str
     write_scene: Callable
+    decimate: Callable
     simulate: Callable
     read_provenance: Callable
     command: tuple[str, ...] | None = None

@@ -2,6 +2,7 @@
 
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from ..errors import ReflcolorError, SeedsError, UsageError
@@ -12,7 +13,7 @@ from ..messages import Message
 from ..seeds.seeds import Seeds
 from .blender_tasks import require_blender
 from .paths import output_faults, photo_files, scan_files
-from .plan import PLACEHOLDER
+from .plan import MESH, PLACEHOLDER, RESULT_SUFFIXES, SCENE
 from .scan_job import require_reflectance, surface_of
 
 ALL = "all"
@@ -61,6 +62,8 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     for output in plan.outputs:
         if output.needs_blender:
             _attempt(refuse, require_blender, blender, f"{output.option} {output.path}")
+    if plan.faces is not None:
+        _check_faces(plan, blender, refuse)
     check_placeholder(plan, len(plan.scans), refuse)
     warnings, seeds, hand = [], None, None
     if plan.seeds is not None and PLACEHOLDER not in str(plan.seeds):
@@ -74,6 +77,20 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     for fault in output_faults(known, [path for _, path in read]):
         refuse(fault)
     return Given(seeds, hand, warnings)
+
+
+def _check_faces(plan, blender, refuse):
+    if not plan.needs_light_mesh:
+        known = (suffix for suffix, kind in RESULT_SUFFIXES.items() if kind in (MESH, SCENE))
+        refuse(
+            UsageError(
+                "--faces {count}: none of the outputs has a mesh; write one of {known}, or leave it out",
+                count=plan.faces,
+                known=", ".join(known),
+            )
+        )
+    else:
+        _attempt(refuse, require_blender, blender, f"--faces {plan.faces}")
 
 
 def _inside(scans):
@@ -109,7 +126,8 @@ def check_jobs(plan, jobs, *, refuse=_raise):
         if output.path.suffix.lower() == ".glb":
             together = [[job] for job in jobs] if output.is_of_each else [jobs]
             for group in together:
-                _attempt(refuse, check_glb_size, [surface_of(job) for job in group], output.of(group[0].label).path)
+                surfaces, path = [surface_of(job) for job in group], output.of(group[0].label).path
+                _attempt(refuse, partial(check_glb_size, faces=plan.faces), surfaces, path)
 
 
 def check_placeholder(plan, count, refuse=_raise):

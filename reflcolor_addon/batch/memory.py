@@ -12,6 +12,7 @@ from .plan import MESH, RENDER, SCANS, SCENE
 # Peak bytes of each step, in addition to the loaded scans; docs/reliability.md describes how they were measured. For
 # each pixel of a scan:
 _RESULT = 16
+_LIGHT_MESH = 1400
 _WRITING = {MESH: 60, SCANS: 60, SCENE: 360, RENDER: 700}
 # Photos are matched on a smaller grid of limited size; the scan's own grid is needed as well.
 _MATCHING, _MATCHING_MOST, _MATCHING_ALWAYS = 2400, 550e6, 130
@@ -42,7 +43,11 @@ def require_run(plan, jobs):
         kept = _RESULT * sum(pixels)
         if plan.colors is None:
             steps[Message("colorizing")] = kept + max(_colorizing(job, plan.settings) for job in jobs)
+        if plan.needs_light_mesh:
+            steps[Message("making the mesh lighter")] = kept + _LIGHT_MESH * max(pixels)
         for output in plan.outputs:
+            if plan.faces is not None and output.has_mesh:
+                continue
             together = max(pixels) if output.is_of_each else sum(pixels)
             steps[Message("writing {name}", name=output.path.name)] = kept + _WRITING.get(output.kind, 0) * together
     _require(steps, ", ".join(dict.fromkeys(str(path) for path in plan.scans)))

@@ -12,11 +12,12 @@ from ..color.colorization import Colorization
 from ..color.colorizer import colorize
 from ..errors import ScanError, SeedsError
 from ..files.images import read_image
-from ..matching import match_site, shots_of, texture
+from ..matching import grid_texture, match_site, shots_of, texture
 from ..messages import Message, about_scan
 from ..progress import part
 from ..seeds.scan_colors import seeds_from_color
 from ..seeds.seeds import Seeds
+from ..view.fewer_faces import few_faces_missed, light_mesh
 from .check import check_plan
 from .memory import require_matching, require_run
 from .plan import filled
@@ -85,6 +86,9 @@ def run_plan(plan, session):
                 if plan.texture:
                     with timed(job.times, "texture"):
                         _add_texture(job, plan, progress, session.cancelled)
+                if plan.needs_light_mesh:
+                    with timed(job.times, "faces"):
+                        _add_light_mesh(job, plan, session, progress)
                 session.warnings += _named(job, count, job.colorization.warnings)
             write(job)
 
@@ -205,6 +209,23 @@ def _add_texture(job, plan, progress, cancelled):
         progress=progress,
         cancelled=cancelled,
     )
+
+
+def _add_light_mesh(job, plan, session, progress):
+    """Make the mesh of a job light. It has too few vertices for the colors, so these are an image."""
+    job.light = light_mesh(
+        job.scan,
+        plan.faces,
+        session.blender.decimate,
+        filled=plan.picture.filled,
+        drop_mixed=plan.picture.drop_mixed,
+        progress=progress,
+        cancelled=session.cancelled,
+    )
+    if len(job.light.triangles) > plan.faces:
+        session.warnings.append(few_faces_missed(job.name, job.light, plan.faces))
+    if job.texture is None:
+        job.texture = grid_texture(job.scan, job.colorization.rgb)
 
 
 def colorize_jobs(jobs, settings, *, progress=None, cancelled=None):

@@ -53,6 +53,11 @@ class Output:
         return self.kind in (SCENE, RENDER)
 
     @property
+    def has_mesh(self):
+        """Whether it shows a mesh, which can have fewer faces."""
+        return self.kind in (MESH, SCENE, RENDER)
+
+    @property
     def is_of_each(self):
         """Whether each of several scans has its own."""
         return not self.is_scene or PLACEHOLDER in str(self.path)
@@ -92,6 +97,8 @@ class Plan:
         How the scans are to be read.
     texture : int, optional
         Texels along the longer side of an image of the photos' resolution; without it colors are at the vertices.
+    faces : int, optional
+        How many triangles the mesh of each scan has at most, where a mesh is written.
     picture : Picture
         How scenes and pictures show the scans.
     left_out : tuple of str
@@ -113,6 +120,7 @@ class Plan:
     outside_files: bool = False
     reading: ReadOptions = AS_IT_IS
     texture: int | None = None
+    faces: int | None = None
     picture: Picture = field(default_factory=Picture)
     left_out: tuple[str, ...] = ()
     skip_unshown: bool = False
@@ -121,6 +129,11 @@ class Plan:
     def needs_colors(self):
         """Whether an output needs the scans to be colorized."""
         return any(output.kind not in (SEEDS, MATCHES) for output in self.outputs)
+
+    @property
+    def needs_light_mesh(self):
+        """Whether an output shows meshes that are to have fewer faces."""
+        return self.faces is not None and any(output.has_mesh for output in self.outputs)
 
     def paths_of_each(self):
         """Return (option, path) of all files that each of several scans must have of its own."""

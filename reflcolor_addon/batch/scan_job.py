@@ -10,6 +10,7 @@ from ..color.colorization import Colorization
 from ..color.observed import Observed
 from ..errors import ScanError
 from ..matching import Matching
+from ..scan.light_mesh import LightMesh
 from ..scan.scan import Scan
 from ..scan.surface import ScanSurface
 from ..seeds.seeds import Seeds
@@ -48,7 +49,9 @@ class ScanJob:
         How its seeds were found.
     colorization : Colorization, optional
     texture : (h, w, 3) uint8, optional
-        The same on an image of more pixels, see `matching.texture`.
+        The same as an image on the scan's grid, see `matching.texture`, which meshes show instead of their vertices'.
+    light : LightMesh, optional
+        What meshes show instead of the scan's own.
     report : dict, optional
     times : dict
         Seconds that each step took.
@@ -68,6 +71,7 @@ class ScanJob:
     matching: Matching | None = None
     colorization: Colorization | None = None
     texture: np.ndarray | None = None
+    light: LightMesh | None = None
     report: dict | None = None
     times: dict[str, float] = field(default_factory=dict)
 
@@ -76,6 +80,10 @@ class ScanJob:
         if callable(self.scan):
             self.scan = self.scan()
         return self.scan
+
+    def let_go(self):
+        """Drop the larger arrays, which nothing needs any more."""
+        self.scan = self.observed = self.colorization = self.texture = self.light = None
 
     def seen(self):
         """Return what photos saw, which is there from now on, or None."""
@@ -89,6 +97,8 @@ def surface_of(job):
     if job.colorization is None:
         return ScanSurface(job.scan, None)
     values, textured = job.colorization.values, job.texture is not None
+    if job.light is not None:
+        return job.light.surface(job.colorization.rgb, values, split_seam=textured)
     return ScanSurface(job.scan, job.colorization.rgb, values, split_seam=textured)
 
 

@@ -82,9 +82,9 @@ class _Writer:
             self._write_scenes([job], job.outputs)
         # Larger arrays are not kept until all scans are colorized.
         colors = None if job.colorization is None else job.colorization.rgb
-        self._rest.append((job, colors if job.texture is None else job.texture))
+        self._rest.append((job, job.texture if self._plan.texture else colors))
         if not self._shared:
-            job.scan = job.observed = job.colorization = job.texture = None
+            job.let_go()
 
     def finish(self):
         """Write the scenes that hold all scans, images, and last the reports: those say how long the rest took."""
@@ -122,7 +122,7 @@ class _Writer:
     def _let_go(self):
         for job, _ in self._rest:
             yield job
-            job.scan = job.observed = job.colorization = job.texture = None
+            job.let_go()
 
     def _report(self, job):
         for role, path in job.inputs:
@@ -134,6 +134,7 @@ class _Writer:
             job.colorization,
             self._plan.settings,
             given_seeds=job.seeds,
+            light=job.light,
             photos=[photo_entry(photo) for photo in job.matching.photos] if job.matching else [],
             inputs=[self._hashed[entry] for entry in job.inputs],
             outputs=[(output.option, output.path) for output in outputs],
@@ -150,9 +151,13 @@ class _Writer:
                 write = MESH_WRITERS[output.path.suffix.lower()]
                 surfaces = [surface_of(job) for job in jobs]
                 session, options = self._session, {}
-                if self._plan.texture and output.path.suffix.lower() == ".glb":
-                    options = {"textures": [png_bytes(job.texture, output.path) for job in jobs]}
+                if output.path.suffix.lower() == ".glb":
+                    options = {"textures": [self._embedded(job, output.path) for job in jobs]}
                 write(surfaces, output.path, progress=session.progress, cancelled=session.cancelled, **options)
+
+    @staticmethod
+    def _embedded(job, path):
+        return None if job.texture is None else png_bytes(job.texture, path)
 
     def _write_back(self, jobs, path):
         colored = [

@@ -2,7 +2,7 @@
 
 from .draw import draw_matches
 from .match import Matching, PhotoMatch, match_photos, match_seeds, match_site
-from .transfer.texture import LARGEST, Shot, shots_of, texture, texture_shape
+from .transfer.texture import LARGEST, Shot, grid_texture, shots_of, texture, texture_shape
 
 __all__ = [
     "LARGEST",
@@ -10,6 +10,7 @@ __all__ = [
     "PhotoMatch",
     "Shot",
     "draw_matches",
+    "grid_texture",
     "match_photos",
     "match_seeds",
     "match_site",

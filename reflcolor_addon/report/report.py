@@ -26,7 +26,19 @@ _PACKAGES = ("numpy", "scipy", "scikit-image", "opencv-python-headless", "pye57"
 _CHUNK_BYTES = 1 << 20
 
 
-def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(), photos=(), noticed=(), blender=None):
+def build_report(
+    scan,
+    colorization,
+    settings,
+    *,
+    given_seeds,
+    inputs,
+    outputs=(),
+    photos=(),
+    noticed=(),
+    light=None,
+    blender=None,
+):
     """Describe a colorization; the same work on the same machine gives the same report.
 
     Parameters
@@ -46,6 +58,8 @@ def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(
         counts them from 0; ``observed`` tells how many pixels have their color from each.
     noticed : sequence of str
         Warnings from before the colorization.
+    light : LightMesh, optional
+        What meshes show instead of the scan's own.
     blender : str, optional
         Blender's version.
 
@@ -74,6 +88,7 @@ def build_report(scan, colorization, settings, *, given_seeds, inputs, outputs=(
             "guessed": colorization.seeds.all_guessed,
             "mean_confidence": round(float(colorization.confidence.sum()) / max(scan["returns"], 1), 4),
         },
+        **({} if light is None else {"mesh": {"faces": len(light.triangles), "faces_before": light.whole}}),
         "method": colorization.method,
         "warnings": [*noticed, *colorization.warnings],
         "inputs": list(inputs),

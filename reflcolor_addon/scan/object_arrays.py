@@ -12,7 +12,9 @@ from .normalization import normalize
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ObjectArrays:
-    """What an object of Blender is made of; N vertices, one per pixel with a return in reading order, and F faces.
+    """What an object of Blender is made of: N vertices and F faces.
+
+    A scan's own mesh has one vertex per pixel with a return, in reading order.
 
     Parameters
     ----------
@@ -31,20 +33,22 @@ class ObjectArrays:
     pose : (4, 4) float64
         Coordinates to world, but in meters.
     coordinates : (3 N,) float32
-    corners : (4 F,) int32
+    corners : (K F,) int32
         Vertices of the faces, one face after the other.
     edges : (2 E,) int32
         Vertices of the edges, one edge after the other.
-    corner_edges : (4 F,) int32
+    corner_edges : (K F,) int32
         The edge from every corner to the next one of its face.
-    uv : (8 F,) float32
+    sides : int
+        Corners of each face: K.
+    uv : (2 K F,) float32
         Of the corners.
     values : dict of (N,) float32 or int32
         By the attribute's name.
     gray, scanned : (N, 3) uint8
         The reflectance and the scan's own color; ``scanned`` is None where it has none.
-    reflectance_image, range_image : (H, W) float32
-        0..1.
+    reflectance_image, range_image : (H, W) float32 or None
+        0..1; None where the object is to have none.
     """
 
     name: str
@@ -59,12 +63,13 @@ class ObjectArrays:
     corners: np.ndarray
     edges: np.ndarray
     corner_edges: np.ndarray
+    sides: int
     uv: np.ndarray
     values: dict[str, np.ndarray]
     gray: np.ndarray
     scanned: np.ndarray | None
-    reflectance_image: np.ndarray
-    range_image: np.ndarray
+    reflectance_image: np.ndarray | None
+    range_image: np.ndarray | None
 
 
 def on_grid(values, place, shape, empty=0):
@@ -87,6 +92,11 @@ def on_grid(values, place, shape, empty=0):
     grid = np.full((*shape, *values.shape[1:]), empty, values.dtype)
     grid[place] = values
     return grid
+
+
+def local_coordinates(scan, center, units_per_meter=1.0):
+    """Return (N, 3) float32, where the returns of a scan are, measured from a (3,) center, in reading order."""
+    return ((scan.points[scan.valid] - center) * units_per_meter).astype(np.float32)
 
 
 def object_arrays(scan, *, units_per_meter=1.0, max_incidence_deg=MAX_INCIDENCE_DEG):
@@ -115,10 +125,11 @@ def object_arrays(scan, *, units_per_meter=1.0, max_incidence_deg=MAX_INCIDENCE_
         max_incidence_deg=max_incidence_deg,
         center=center,
         pose=pose,
-        coordinates=((scan.points[valid] - center) * units_per_meter).astype(np.float32).ravel(),
+        coordinates=local_coordinates(scan, center, units_per_meter).ravel(),
         corners=mesh.quads.ravel(),
         edges=mesh.edges.ravel(),
         corner_edges=mesh.face_edges.ravel(),
+        sides=4,
         uv=mesh.uv.ravel(),
         values={
             "reflectance": scan.reflectance[valid],

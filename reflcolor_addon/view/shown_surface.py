@@ -9,10 +9,9 @@ from ..messages import Message
 from ..scan.grid_mesh import MAX_INCIDENCE_DEG, is_jump
 from .mixed_pixels import mixed_pixels
 from .outlines import CORNERS, DOWN, RIGHT, STEPS, outline_shares, square_polygons
+from .pixel_directions import pixel_directions
 from .small_holes import nearest_kept, small_holes, spread_into
 
-# Size of the window in which steps from pixel to pixel are averaged, for the directions of pixels without a return.
-_STEP_WINDOW = 31
 # An outline continues its surface's slope, but by no more than this share of the inverse range.
 _LARGEST_SLOPE = 0.05
 
@@ -25,6 +24,10 @@ class ShownSurface:
     ----------
     points : (M, 3) float64
         Meters, in the scanner's frame.
+    places : (M, 2) float64
+        Row and column in the scan's grid.
+    measured : (M,) bool
+        Whether a vertex is the return of a pixel, and so one of the scan's own.
     source : (M,) int64
         The pixel whose color a vertex has: its index in reading order.
     corners : (C,) int32
@@ -38,6 +41,8 @@ class ShownSurface:
     """
 
     points: np.ndarray
+    places: np.ndarray
+    measured: np.ndarray
     source: np.ndarray
     corners: np.ndarray
     sizes: np.ndarray
@@ -95,6 +100,8 @@ def shown_surface(scan, *, drop_mixed=True, max_incidence_deg=MAX_INCIDENCE_DEG,
     report(1.0, Message("Filling small holes"))
     return ShownSurface(
         points=points,
+        places=polygons.places,
+        measured=polygons.measured,
         source=grid.nearest.ravel()[pixels],
         corners=vertex.astype(np.int32),
         sizes=polygons.sizes,
@@ -119,7 +126,7 @@ class _Grid:
             np.where(self._beside(kept, way) & kept, joint, self._alike(way)) & self._inside(way)
             for way, joint in zip((RIGHT, DOWN), joined, strict=True)
         ]
-        self.directions = self._directions(scan)
+        self.directions = pixel_directions(scan)
         with np.errstate(divide="ignore"):
             inverse = np.where(kept, 1 / np.where(kept, scan.range, 1), 0).ravel()[self.nearest]
         self.inverse = spread_into(self.holes, inverse, self.surface)
@@ -165,25 +172,6 @@ class _Grid:
         """Where a pixel and its neighbor are shown, and on the same surface."""
         return self.there & self._beside(self.there, way) & (self.surface == self._beside(self.surface, way))
 
-    def _directions(self, scan):
-        """(H, W, 3) unit vectors; where there is no return, on from the nearest one by the usual step."""
-        import cv2
-
-        known = scan.valid
-        rays = np.where(known[..., None], scan.points / np.where(known, scan.range, 1)[..., None], 0)
-        nearest = nearest_kept(known)
-        rows, cols = np.indices(known.shape)
-        found = rays.reshape(-1, 3)[nearest]
-        for way, offset in ((DOWN, rows - nearest // self.width), (RIGHT, cols - nearest % self.width)):
-            both = known & self._beside(known, way) & self._inside(way)
-            step = np.where(both[..., None], self._beside(rays, way) - rays, 0)
-            sums = cv2.blur(np.dstack([step, both]), (_STEP_WINDOW, _STEP_WINDOW), borderType=cv2.BORDER_REPLICATE)
-            usual = step.sum(axis=(0, 1)) / max(both.sum(), 1)
-            near = sums[..., 3:] > 1e-9
-            mean = np.where(near, sums[..., :3] / np.where(near, sums[..., 3:], 1), usual)
-            found = found + mean.reshape(-1, 3)[nearest] * offset[..., None]
-        return found / np.maximum(np.linalg.norm(found, axis=-1, keepdims=True), 1e-12)
-
 
 class _Polygons:
     """The faces: of every square of four pixels that the scan's own mesh does not fill."""
@@ -221,26 +209,27 @@ class _Polygons:
         grid = self._grid
         unique, vertex = np.unique(self._tokens, return_inverse=True)
         pixel, way = unique % self._size, unique // self._size - 1
-        self._shares = np.zeros(len(unique))
-        self._ways, self._pixel, self._vertex = way, pixel, vertex
+        shares = np.zeros(len(unique))
+        self._vertex = vertex
         crosses = way >= 0
-        self._shares[crosses] = outline_shares(grid.surface, pixel[crosses], way[crosses], wrap=grid.wrap)
+        shares[crosses] = outline_shares(grid.surface, pixel[crosses], way[crosses], wrap=grid.wrap)
         directions, inverse = grid.directions.reshape(-1, 3), grid.inverse.ravel()
         beside, opposite = self._neighbor(pixel, way, 1), self._neighbor(pixel, way, -1)
-        ray = directions[pixel] + self._shares[:, None] * (directions[beside] - directions[pixel])
+        ray = directions[pixel] + shares[:, None] * (directions[beside] - directions[pixel])
         slope = np.where(self._is_joined(pixel, opposite), inverse[pixel] - inverse[opposite], 0)
         slope = np.clip(slope, -_LARGEST_SLOPE * inverse[pixel], _LARGEST_SLOPE * inverse[pixel])
-        points = ray / np.linalg.norm(ray, axis=1, keepdims=True) / (inverse[pixel] + self._shares * slope)[:, None]
+        points = ray / np.linalg.norm(ray, axis=1, keepdims=True) / (inverse[pixel] + shares * slope)[:, None]
         measured = ~crosses & grid.kept.ravel()[pixel]
         points[measured] = grid.points.reshape(-1, 3)[pixel[measured]]
+        self.measured = measured
+        steps = np.array([*STEPS, (0, 0)])[way] * shares[:, None]
+        self.places = np.stack(np.divmod(pixel, grid.width), axis=1) + steps
         return points, vertex, pixel
 
     def uv(self):
         """Return the (C, 2) float32 places in the scan's image; call it after `vertices`."""
         grid = self._grid
-        steps = np.array([*STEPS, (0, 0)])[self._ways] * self._shares[:, None]
-        row = (self._pixel // grid.width + steps[:, 0])[self._vertex]
-        col = (self._pixel % grid.width + steps[:, 1])[self._vertex]
+        row, col = self.places[self._vertex].T
         # Beyond the seam of a full turn the picture continues.
         col = np.where(col < self._cols[self._squares] - 1, col + grid.width, col)
         return np.stack([(col + 0.5) / grid.width, 1 - (row + 0.5) / grid.height], axis=1).astype(np.float32)

@@ -1,12 +1,14 @@
 """The verb ``colorize``: from scans and seeds, or photos, to colored files."""
 
 import argparse
+from functools import partial
 from pathlib import Path
 
 from ...batch.pipeline import run_plan
 from ...batch.plan import IMAGE, MESH, RENDER, REPORT, RESULT_SUFFIXES, SCANS, SCENE, Output, Plan, result_output
 from ...errors import UsageError
 from ...matching import LARGEST
+from ...view.fewer_faces import FEWEST_FACES, MOST_FACES
 from ...view.picture import Picture
 from ..options import add_matching, add_photos, add_picture, add_propagation, add_scans, reading_of, settings_of
 
@@ -43,17 +45,24 @@ def add_arguments(parser):
     parser.add_argument(
         "--texture",
         metavar="PIXELS",
-        type=_texels,
+        type=partial(_whole, 1, LARGEST),
         help="an image of so many pixels along its longer side with the detail of the photos: "
         "a .png has that size, a .glb and a .blend show it instead of colors at the vertices",
+    )
+    parser.add_argument(
+        "--faces",
+        metavar="N",
+        type=partial(_whole, FEWEST_FACES, MOST_FACES),
+        help="a light mesh of so many triangles at most for each scan, made in Blender, for a .blend, .glb, .usd, .ply "
+        "or picture; its colors are an image that a .glb and a .blend show, of the scan's pixels or of --texture",
     )
     add_picture(parser)
     parser.add_argument("--report", metavar="JSON", type=Path, help="what was done, and a hash of every input")
 
 
-def _texels(text):
-    if not text.isdecimal() or not 1 <= int(text) <= LARGEST:
-        raise argparse.ArgumentTypeError(f"expected a whole number from 1 to {LARGEST}, found {text}")
+def _whole(least, most, text):
+    if not text.isdecimal() or not least <= int(text) <= most:
+        raise argparse.ArgumentTypeError(f"expected a whole number from {least} to {most}, found {text}")
     return int(text)
 
 
@@ -80,6 +89,7 @@ def run(arguments, session):
         settings=settings_of(arguments),
         outputs=tuple(outputs),
         texture=arguments.texture,
+        faces=arguments.faces,
         picture=Picture(look=arguments.look, filled=not arguments.as_measured, drop_mixed=not arguments.keep_mixed),
     )
     run_plan(plan, session)

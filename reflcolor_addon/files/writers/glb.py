@@ -35,15 +35,17 @@ _ROTATION_TOLERANCE = 1e-7
 _LINEAR = srgb8_to_linear(np.arange(256)).astype("<f4")
 
 
-def check_glb_size(surfaces, path, *, textures=None):
+def check_glb_size(surfaces, path, *, textures=None, faces=None):
     """Raise OutputError if the surfaces do not fit into a GLB, which ends at 4 GiB.
 
-    Faces are only counted where the answer depends on it. Surfaces may be without their colors yet.
+    Faces are only counted where the answer depends on it. Surfaces may be without their colors yet, and have more than
+    the ``faces`` that each is to have.
     """
+    most = _LARGEST if faces is None else faces
     textures = textures or [None] * len(surfaces)
-    size = _glb_bytes(surfaces, textures, lambda surface: 2 * surface.vertex_count)
+    size = _glb_bytes(surfaces, textures, lambda surface: 2 * surface.vertex_count, most)
     if size > _LARGEST:
-        size = _glb_bytes(surfaces, textures, lambda surface: surface.triangle_count)
+        size = _glb_bytes(surfaces, textures, lambda surface: surface.triangle_count, most)
     if size > _LARGEST:
         raise OutputError(
             "{path}: would have {size:.1f} GiB, and a GLB holds at most 4 GiB; make the mesh lighter with --faces, or "
@@ -53,13 +55,14 @@ def check_glb_size(surfaces, path, *, textures=None):
         )
 
 
-def _glb_bytes(surfaces, textures, triangles):
-    """About how many bytes a GLB of surfaces has, with ``triangles(surface)`` triangles."""
+def _glb_bytes(surfaces, textures, triangles, most):
+    """About how many bytes a GLB of surfaces has, with ``triangles(surface)`` triangles, or if those are more, most."""
     size = 0
     for surface, texture in zip(surfaces, textures, strict=True):
         values = len(surface.value_types) + (0 if surface.has_colors else _MORE_VALUES)
         # Position, normal and color; a vertex in no face is listed by its index.
-        size += surface.vertex_count * (12 + 12 + 12 + 4 * values + 4) + triangles(surface) * 12
+        vertices, faces = min(surface.vertex_count, most), min(triangles(surface), most)
+        size += vertices * (12 + 12 + 12 + 4 * values + 4) + faces * 12
         size += len(texture or b"") + _JSON_PER_SCAN
     return size
 

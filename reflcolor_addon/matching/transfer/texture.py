@@ -95,6 +95,28 @@ def texture(scan, rgb, observed, photo, shots, longest, *, progress=None, cancel
     return image
 
 
+def grid_texture(scan, rgb):
+    """Return an image of a scan's grid with the colors of its pixels, of no more than `LARGEST` texels a side.
+
+    Parameters
+    ----------
+    scan : Scan
+    rgb : (H, W, 3) uint8
+
+    Returns
+    -------
+    (rows, columns, 3) uint8
+        Where the scan has no return it has the nearest color.
+    """
+    import cv2
+
+    image = rgb.reshape(-1, 3)[_nearest_return(scan.valid)]
+    rows, columns = (min(side, LARGEST) for side in scan.shape)
+    if (rows, columns) == scan.shape:
+        return image
+    return cv2.resize(image, (columns, rows), interpolation=cv2.INTER_AREA)
+
+
 class _Enlarged:
     """Images of a scan's grid at the size of a texture, strip by strip, interpolated between the pixels' middles."""
 
