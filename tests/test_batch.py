@@ -132,6 +132,7 @@ def test_a_plan_comes_whole_out_of_its_document():
         outside_files=True,
         reading=ReadOptions(turn_deg=90, step=2, position=(1.0, 2.0, 3.0)),
         texture=512,
+        faces=5000,
         picture=Picture(look="lit", filled=False),
         left_out=("hall+2",),
         skip_unshown=True,

@@ -147,6 +147,7 @@ def test_an_image_that_was_looked_at_shows_what_is_written_into_it_again(coloriz
     images = importlib.import_module(f"{EXTENSION}.operators.scene.images")
     image = None
     for level, shape in ((10, (4, 6, 3)), (200, (4, 6, 3)), (90, (8, 5, 3))):
-        image = images.write_image(image, "twice", np.full(shape, level, np.uint8), is_data=False)
+        packed = images.packed_pixels(np.full(shape, level, np.uint8), "twice")
+        image = images.write_packed(image, "twice", packed, is_data=False)
         assert tuple(image.size) == shape[1::-1]
         assert (images.read_image(image) == level).all()

@@ -144,7 +144,13 @@ _COLORS = {
     "{scan}: colorizing {rows} rows x {columns} columns": "{scan}: Einfärben von {rows} Zeilen x {columns} Spalten",
     "Writing the colors": "Farben werden geschrieben",
     "Colorized": "Eingefärbt",
+    "Making the mesh lighter": "Netz wird leichter gemacht",
+    "making the mesh lighter": "das Erzeugen des leichten Netzes",
     "Making the texture": "Textur wird erzeugt",
+    "{scan}: has {found} faces instead of {faces}: what is left joins no more without a change of outlines": (
+        "{scan}: hat {found} Flächen statt {faces}: was noch da ist, lässt sich nur zusammenfassen, wenn sich Umrisse "
+        "ändern"
+    ),
     "Looking for mixed returns": "Gemischte Messungen werden gesucht",
     "Filling small holes": "Kleine Löcher werden gefüllt",
     "Smoothing outlines": "Umrisse werden geglättet",

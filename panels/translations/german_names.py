@@ -29,6 +29,8 @@ _OPERATORS = {
     "Load Photo": "Foto laden",
     "Load Seeds": "Saatpunkte laden",
     "Lock Seeds": "Saatpunkte sperren",
+    "Faces": "Flächen",
+    "Make Light Mesh": "Leichtes Netz erzeugen",
     "Make Texture": "Textur erzeugen",
     "Match Photos": "Fotos zuordnen",
     "Move Seed": "Saatpunkt versetzen",

@@ -25,6 +25,10 @@ _PANELS = {
     "Seed or Color": "Saatpunkt oder Farbe",
     "Select": "Auswählen",
     "Take Color": "Farbe nehmen",
+    "This is a light mesh; select the scan itself": "Das ist ein leichtes Netz; den Scan selbst auswählen",
+    "{name}: is a light mesh, which can be shown and exported; select the scan itself": (
+        "{name}: ist ein leichtes Netz, das gezeigt und exportiert werden kann; den Scan selbst auswählen"
+    ),
     "The scan is linked from another file; make it local or a library override first": (
         "Der Scan ist aus einer anderen Datei verknüpft; erst lokal machen oder eine Bibliotheksüberschreibung anlegen"
     ),
@@ -68,6 +72,11 @@ _PANELS = {
     "{place}: choose its color": "{place}: Farbe wählen",
     "Seed {number}": "Saatpunkt {number}",
     "Photo {number}": "Foto {number}",
+    "Make Light Mesh": "Leichtes Netz erzeugen",
+    "{name} is gone; its light mesh was dropped": "{name} gibt es nicht mehr; das leichte Netz wurde verworfen",
+    "{name} has {faces} faces instead of {whole}; {scan} is hidden": (
+        "{name} hat {faces} Flächen statt {whole}; {scan} ist ausgeblendet"
+    ),
     "Make Texture": "Textur erzeugen",
     "{name} has a texture of {columns} x {rows} pixels": "{name} hat eine Textur von {columns} x {rows} Pixeln",
     "Inferred": "Erschlossen",

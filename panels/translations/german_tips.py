@@ -222,6 +222,10 @@ _SETTINGS = {
     "Make an image with the detail of the photos, and show it on the scan instead of the colors of its vertices": (
         "Ein Bild mit den Einzelheiten der Fotos erzeugen und auf dem Scan statt der Farben seiner Punkte zeigen"
     ),
+    "Make a copy of the scan with few faces, whose colors are an image, and hide the scan itself": (
+        "Eine Kopie des Scans mit wenigen Flächen erzeugen, deren Farben ein Bild sind, und den Scan selbst ausblenden"
+    ),
+    "How many triangles the copy has at most": "Wie viele Dreiecke die Kopie höchstens hat",
     "Pixels along the longer side of the image": "Pixel entlang der längeren Seite des Bildes",
     "The colors with the detail of the photos": "Die Farben mit den Einzelheiten der Fotos",
     "Which photo saw each color, in a color of its own that is not the photo's; gray where none did": (

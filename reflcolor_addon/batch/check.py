@@ -62,8 +62,9 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     for output in plan.outputs:
         if output.needs_blender:
             _attempt(refuse, require_blender, blender, f"{output.option} {output.path}")
-    if plan.faces is not None:
-        _check_faces(plan, blender, refuse)
+    _attempt(refuse, check_has_mesh, plan)
+    if plan.needs_light_mesh:
+        _attempt(refuse, require_blender, blender, f"--faces {plan.faces}")
     check_placeholder(plan, len(plan.scans), refuse)
     warnings, seeds, hand = [], None, None
     if plan.seeds is not None and PLACEHOLDER not in str(plan.seeds):
@@ -79,18 +80,15 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     return Given(seeds, hand, warnings)
 
 
-def _check_faces(plan, blender, refuse):
-    if not plan.needs_light_mesh:
+def check_has_mesh(plan):
+    """Raise UsageError if a plan is to have few faces, but writes nothing that has any."""
+    if plan.faces is not None and not plan.needs_light_mesh:
         known = (suffix for suffix, kind in RESULT_SUFFIXES.items() if kind in (MESH, SCENE))
-        refuse(
-            UsageError(
-                "--faces {count}: none of the outputs has a mesh; write one of {known}, or leave it out",
-                count=plan.faces,
-                known=", ".join(known),
-            )
+        raise UsageError(
+            "--faces {count}: none of the outputs has a mesh; write one of {known}, or leave it out",
+            count=plan.faces,
+            known=", ".join(known),
         )
-    else:
-        _attempt(refuse, require_blender, blender, f"--faces {plan.faces}")
 
 
 def _inside(scans):

@@ -135,6 +135,11 @@ class Plan:
         """Whether an output shows meshes that are to have fewer faces."""
         return self.faces is not None and any(output.has_mesh for output in self.outputs)
 
+    @property
+    def needs_blender(self):
+        """Whether only Blender can do it."""
+        return self.needs_light_mesh or any(output.needs_blender for output in self.outputs)
+
     def paths_of_each(self):
         """Return (option, path) of all files that each of several scans must have of its own."""
         given = [("--seeds", self.seeds), ("--hand", self.hand)]

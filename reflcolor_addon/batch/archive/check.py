@@ -4,7 +4,7 @@ from ...errors import ReflcolorError, UsageError
 from ...files.gate import opened
 from ...files.readers import SCAN_SUFFIXES
 from ...messages import Message
-from ..check import load_seeds
+from ..check import check_has_mesh, load_seeds
 from ..paths import files_of_each, output_faults
 from ..plan import PLACEHOLDER, RENDER
 
@@ -30,12 +30,20 @@ def check_manifest(manifest, blender, refuse):
             for path in files_of_each(given, item.name):
                 _attempt(wrong, load_seeds, path, item.plan.photos)
         needing = [output for output in item.plan.outputs if output.needs_blender]
-        if needing and (blender is None or blender.command is None):
-            what = "render" if needing[0].kind == RENDER else f"write {needing[0].path.suffix}"
+        if item.plan.needs_blender and (blender is None or blender.command is None):
+            what = _what(needing)
             wrong(
                 Message("{what} needs Blender; run the batch as: blender -b --command reflcolor batch ...", what=what)
             )
+        _attempt(wrong, check_has_mesh, item.plan)
     _check_outputs(manifest, refuse)
+
+
+def _what(outputs):
+    """Names what needs Blender."""
+    if not outputs:
+        return "faces"
+    return "render" if outputs[0].kind == RENDER else f"write {outputs[0].path.suffix}"
 
 
 def _check_scan(path):

@@ -46,7 +46,7 @@ def colorize_items(context, states, photos):
         task = Task(
             name=state.item.name,
             request={"do": "run", "plan": as_document(plan), "folder": str(context.folder.root), "hashes": hashes},
-            needs_blender=any(output.needs_blender for output in plan.outputs),
+            needs_blender=plan.needs_blender,
             memory=memory_of(plan.scans),
             cost=seconds_of(plan.scans, 0 if plan.seeds else len(plan.photos)),
             log=context.folder.log(state.item.name),
@@ -76,7 +76,8 @@ def color_plan(context, item, photos):
     outputs = [output for output in plan.outputs if output.kind != RENDER]
     if len(outputs) < len(plan.outputs) and not any(output.kind == IMAGE for output in outputs):
         outputs.insert(0, Output("write", context.folder.result(PLACEHOLDER, ".png"), IMAGE))
-    return replace(plan, outputs=tuple(outputs), skip_unshown=True)
+    plan = replace(plan, outputs=tuple(outputs), skip_unshown=True)
+    return plan if plan.needs_light_mesh else replace(plan, faces=None)
 
 
 def _written(context, state):

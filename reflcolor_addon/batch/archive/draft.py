@@ -26,6 +26,9 @@ write = ["png", "glb"]
 
 # A rendered picture of each scan; needs Blender.
 render = false
+
+# Light meshes, of so many triangles at most for each scan; needs Blender.
+# faces = 200000
 """
 _SCANS = "\n# The scans.\nscans = [\n{lines}]\n"
 _PHOTOS = """

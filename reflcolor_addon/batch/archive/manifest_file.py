@@ -13,6 +13,7 @@ from ...files.gate import contents
 from ...files.images import IMAGE_SUFFIXES
 from ...messages import Message
 from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
+from ...view.fewer_faces import FEWEST_FACES, MOST_FACES
 from ..paths import files_of_each
 from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, default_settings, filled
 from ..read import distinct, safe_label
@@ -25,7 +26,7 @@ FORMAT, VERSION = "reflcolor-batch", 1
 _MOST_BYTES = 64 << 20
 _RESULTS = tuple(suffix.removeprefix(".") for suffix in RESULT_SUFFIXES)
 _OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
-_OF_EACH = ("write", "render", "preset", "settings", "seeds")
+_OF_EACH = ("write", "render", "faces", "preset", "settings", "seeds")
 _OF_ONE = ("file", "name", "site", "scan", "photos", "hand", "skip")
 _OF_SITE = (*_OF_EACH, "photos", "hand")
 
@@ -203,6 +204,7 @@ class _Reader:
             photos=tuple(photos),
             settings=self._settings(chain),
             outputs=outputs,
+            faces=self._faces(chain),
         )
         return Item(name=name, plan=plan, offered=offered, line=self._lines.of(*place))
 
@@ -271,6 +273,20 @@ class _Reader:
         if last_value(chain, "render", bool, False):
             found.append(Output("render", self._folder.render(PLACEHOLDER), RENDER))
         return (*found, *self._folder.records(PLACEHOLDER))
+
+    def _faces(self, chain):
+        found = last_value(chain, "faces", int, None)
+        if found is None or FEWEST_FACES <= found <= MOST_FACES:
+            return found
+        table = next(table for table in reversed(chain) if "faces" in table)
+        table.refuse(
+            "faces",
+            "faces {found}: expected a whole number from {least} to {most}",
+            found=found,
+            least=FEWEST_FACES,
+            most=MOST_FACES,
+        )
+        return None
 
     def _settings(self, chain):
         preset = last_value(chain, "preset", str, DEFAULT_PRESET)
