@@ -200,3 +200,13 @@ def test_seeds_named_for_all_scans_may_be_missing_where_there_are_photos(folder)
     assert faults == []
     assert [item.offered for item in manifest.items] == [False, True, True]
     assert manifest.items[0].plan.seeds == Path(folder / "{scan}.json")
+
+
+def test_light_meshes_are_a_number_of_faces_and_need_blender_and_a_mesh(folder):
+    text = HEAD + 'scans = "hall_0.ptx"\nphotos = "photos/a.png"\nwrite = ["{}"]\nfaces = {}\n'
+    manifest, (fault,) = read(folder, text.format("glb", 5000))
+    assert manifest.items[0].plan.faces == 5000 and "faces needs Blender" in fault
+    assert "none of the outputs has a mesh" in read(folder, text.format("png", 5000))[1][0]
+    assert read(folder, text.format("png", 99))[1][0] == (
+        f"line {HEAD.count(chr(10)) + 4}: faces 99: expected a whole number from 100 to 100000000"
+    )

@@ -47,6 +47,12 @@ def test_a_scene_that_does_not_fit_is_refused_before_the_work(run_cli, free, idl
     assert_refused(outcome, 1, "writing out.png needs about", "and 19.5 KB are free", "step 2")
 
 
+def test_a_light_mesh_that_cannot_be_made_is_refused_before_the_work(run_cli, free, idle):
+    free(20_000)
+    outcome = run_cli(*COLORIZE, "--faces", "100", "-o", "out.glb", blender=blender_tasks())
+    assert_refused(outcome, 1, "making the mesh lighter needs about", "and 19.5 KB are free")
+
+
 def test_a_photo_that_does_not_fit_is_refused_before_it_is_decoded(run_cli, cli_folder, free, idle, monkeypatch):
     cv2.imwrite(str(cli_folder / "view.png"), np.zeros((900, 1200, 3), np.uint8))
     monkeypatch.setattr(cv2, "imdecode", lambda *_: pytest.fail("was decoded"))
