@@ -8,6 +8,7 @@ from bpy.props import IntProperty
 
 from ..reflcolor_addon.matching import grid_texture
 from ..reflcolor_addon.scan.georeference import shifted
+from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
 from ..reflcolor_addon.view.fewer_faces import FEWEST_FACES, MOST_FACES, few_faces_missed, light_mesh
 from .scene import polls
 from .scene.decimation import decimate
@@ -39,7 +40,7 @@ class REFLCOLOR_OT_make_light_mesh(JobOperator, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_whole_scan(cls, context)
+        return polls.has_editable_scan(cls, context) and polls.has_whole_scan(cls, context)
 
     def invoke(self, context, event):
         return self.ask(context, event)
@@ -50,8 +51,11 @@ class REFLCOLOR_OT_make_light_mesh(JobOperator, bpy.types.Operator):
         read, faces, picture = scan_reader(obj), self.faces, scene_picture(context.scene)
         self._colors, self._values = known_of(obj)
         shown_rgb = self._colors[shown_in_renders(obj)]
-        options = {"filled": picture.filled, "drop_mixed": picture.drop_mixed}
-        options["max_incidence_deg"] = obj.data[MAX_INCIDENCE]
+        options = {
+            "filled": picture.filled,
+            "drop_mixed": picture.drop_mixed,
+            "max_incidence_deg": obj.data.get(MAX_INCIDENCE, MAX_INCIDENCE_DEG),
+        }
         shift, own_image, name = np.array(obj.get(SHIFT, (0, 0, 0))), self._image, obj.name
 
         def work(progress, cancelled):

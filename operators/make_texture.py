@@ -35,7 +35,11 @@ class REFLCOLOR_OT_make_texture(JobOperator, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_whole_scan(cls, context) and polls.has_colors(cls, context)
+        return (
+            polls.has_editable_scan(cls, context)
+            and polls.has_whole_scan(cls, context)
+            and polls.has_colors(cls, context)
+        )
 
     def prepare(self, context):
         obj = polls.scan_object(context)

@@ -15,7 +15,7 @@ class REFLCOLOR_OT_open_reflectance(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_scan(cls, context)
+        return polls.has_whole_scan(cls, context)
 
     def execute(self, context):
         image = polls.scan_object(context).reflcolor.reflectance_image

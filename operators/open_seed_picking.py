@@ -15,7 +15,7 @@ class REFLCOLOR_OT_open_seed_picking(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return polls.has_window(cls, context) and polls.has_scan(cls, context)
+        return polls.has_window(cls, context) and polls.has_whole_scan(cls, context)
 
     def execute(self, context):
         seed_picking.open_seed_picking(context, polls.scan_object(context))

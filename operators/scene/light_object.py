@@ -37,11 +37,12 @@ def known_of(obj):
     Raises
     ------
     ScanError
-        As `grid_indices`.
+        As `grid_indices` and `colors_of`.
     """
     place, shape = grid_indices(obj), (obj.reflcolor.rows, obj.reflcolor.cols)
     attributes = obj.data.attributes
-    colors = {name: on_grid(colors_of(obj, name), place, shape) for name in SHOWN_IN_RENDERS if name in attributes}
+    names = {shown_in_renders(obj), *(name for name in SHOWN_IN_RENDERS if name in attributes)}
+    colors = {name: on_grid(colors_of(obj, name), place, shape) for name in sorted(names)}
     values = {
         name: on_grid(values_of(obj, name, dtype), place, shape) for name, dtype in _KNOWN.items() if name in attributes
     }

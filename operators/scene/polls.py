@@ -36,8 +36,8 @@ def has_editable_scan(cls, context):
 
 
 def has_whole_scan(cls, context):
-    """A scan's object is active, and it has the scan's own mesh, which can be read."""
-    return has_editable_scan(cls, context) and nothing_missing(cls, light_mesh(scan_object(context)))
+    """There is a scan that is meant, with its own mesh and images."""
+    return has_scan(cls, context) and nothing_missing(cls, light_mesh(scan_object(context)))
 
 
 def has_seeds(cls, context):
