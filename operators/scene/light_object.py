@@ -13,6 +13,7 @@ from .scan_object import (
     CONFIDENCE,
     ERROR,
     GUESSED,
+    IMAGE_OF,
     LIGHT,
     NEAREST_SEED,
     OBSERVED,
@@ -77,6 +78,7 @@ def add_light_object(context, light, colors, values, texture, *, shown, units_pe
         add_values(obj, name, at_vertices[:own])
     show_colors(obj, shown)
     show_texture(obj, texture)
+    obj.data[IMAGE_OF] = shown
     keep_view(obj, local_coordinates(light.scan, arrays.center, units_per_meter))
     return obj
 

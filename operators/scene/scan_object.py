@@ -9,7 +9,7 @@ from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.scan.georeference import rigid_pose
 from ...reflcolor_addon.scan.object_arrays import on_grid
 from ...reflcolor_addon.scan.scan import Scan
-from .nodes import show_in_material
+from .nodes import show_image_again, show_in_material
 
 GRAY = "Reflectance_Gray"
 COLORIZED = "Colorized"
@@ -30,6 +30,8 @@ CENTER, MAX_INCIDENCE = "reflcolor_center", "reflcolor_max_incidence"
 RETURNS = "reflcolor_returns"
 # Custom property of light meshes: how many returns the scan has that one was made of.
 LIGHT = "reflcolor_light"
+# The same: which of its colors the image has that is shown instead of them.
+IMAGE_OF = "reflcolor_image_of"
 # Custom property of objects whose colors are all guesses, not seen by any verified photo.
 GUESSED = "reflcolor_guessed"
 KINDS = {np.float32: "FLOAT", np.int32: "INT"}
@@ -249,6 +251,8 @@ def show_colors(obj, name):
     mesh.color_attributes.render_color_index = mesh.color_attributes.find(name)
     for material in filter(None, mesh.materials):
         show_in_material(material, name, instead_of=SHOWN_IN_RENDERS)
+        if mesh.get(IMAGE_OF) == name:
+            show_image_again(material)
 
 
 def shown_in_renders(obj):
