@@ -25,6 +25,15 @@ _PANELS = {
     "Seed or Color": "Saatpunkt oder Farbe",
     "Select": "Auswählen",
     "Take Color": "Farbe nehmen",
+    "the mesh could not be made lighter ({reason})": "das Netz konnte nicht leichter gemacht werden ({reason})",
+    "the mesh could not be made lighter: Blender did not start ({reason})": (
+        "das Netz konnte nicht leichter gemacht werden: Blender startete nicht ({reason})"
+    ),
+    "the mesh could not be made lighter: Blender ended with {status} ({reason}); it may have run out of memory: read "
+    "every second row and column (step 2)": (
+        "das Netz konnte nicht leichter gemacht werden: Blender endete mit {status} ({reason}); vielleicht reichte der "
+        "Arbeitsspeicher nicht: nur jede zweite Zeile und Spalte lesen (Schritt 2)"
+    ),
     "This is a light mesh; select the scan itself": "Das ist ein leichtes Netz; den Scan selbst auswählen",
     "{name}: is a light mesh, which can be shown and exported; select the scan itself": (
         "{name}: ist ein leichtes Netz, das gezeigt und exportiert werden kann; den Scan selbst auswählen"
