@@ -144,6 +144,9 @@ _COLORS = {
     "{scan}: colorizing {rows} rows x {columns} columns": "{scan}: Einfärben von {rows} Zeilen x {columns} Spalten",
     "Writing the colors": "Farben werden geschrieben",
     "Colorized": "Eingefärbt",
+    "--faces {count}: none of the outputs has a mesh; write one of {known}, or leave it out": (
+        "--faces {count}: keine der Ausgaben hat ein Netz; eine von {known} schreiben, oder es weglassen"
+    ),
     "Making the mesh lighter": "Netz wird leichter gemacht",
     "making the mesh lighter": "das Erzeugen des leichten Netzes",
     "Making the texture": "Textur wird erzeugt",
