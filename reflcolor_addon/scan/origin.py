@@ -63,7 +63,7 @@ def better_origin(points, valid, candidates, *, fit=True):
     points, valid = _sampled(points, valid)
     if np.count_nonzero(valid) < _FEWEST_LINES * _FEWEST_IN_LINE:
         return None
-    stated = _spread(points, valid, np.zeros(3))
+    stated = _spread(points, valid, np.zeros(3), enough=_REGULAR)
     if not stated > _REGULAR:
         return None
     places = {name: np.asarray(place, np.float64) for name, place in candidates.items()}
@@ -220,13 +220,16 @@ def _levels(relative, valid):
     return np.where(there, level, 1.0), np.where(there, distance, 1.0), there
 
 
-def _spread(points, valid, place):
-    """How far apart the angles of a line of the grid are, in steps from line to line: the better of both ways round."""
+def _spread(points, valid, place, enough=-1.0):
+    """How far apart the angles of a line of the grid are, in steps from line to line: the better of both ways round, or
+    the first one that is small enough."""
     relative = points - place
     level, _, valid = _levels(relative, valid)
     azimuth = np.arctan2(relative[..., 1], relative[..., 0])
     elevation = np.arctan2(relative[..., 2], level)
     by_column = max(_spread_of_lines(azimuth, valid, wraps=True), _spread_of_lines(elevation.T, valid.T))
+    if by_column <= enough:
+        return by_column
     by_row = max(_spread_of_lines(azimuth.T, valid.T, wraps=True), _spread_of_lines(elevation, valid))
     return min(by_column, by_row)
 

@@ -225,9 +225,10 @@ def _lay(grid, at, values):
         else:
             columns = len(values) // height
             done = columns * height
-            grid[:, column : column + columns] = (
-                values[:done].reshape(columns, height, *values.shape[1:]).swapaxes(0, 1)
-            )
+            lines = values[:done].reshape(columns, height, *values.shape[1:])
+            # One channel after the other: many times faster than three numbers at a time.
+            for channel in np.ndindex(values.shape[1:]):
+                grid[(slice(None), slice(column, column + columns), *channel)] = lines[(..., *channel)].T
         at, values = at + done, values[done:]
 
 
