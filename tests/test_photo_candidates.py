@@ -9,7 +9,7 @@ from e57_samples import write_e57
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reflcolor_addon.batch.archive.candidates import MOST_SCANS, _Neighbors, candidates
+from reflcolor_addon.batch.archive.candidates import ALL_PAIRS, MOST_SCANS, _Neighbors, are_few, candidates, ranked
 from reflcolor_addon.files.exif import Moment, moment_of
 from reflcolor_addon.files.readers.e57_file import acquired_at
 
@@ -86,6 +86,13 @@ def test_a_scan_with_much_detail_does_not_take_all_photos():
     scores = {"detailed": {"a": 50.0, "b": 52.0, "c": 48.0}, "plain": {"a": 1.0, "b": 1.0, "c": 9.0}}
     assert "c" in candidates(scores)["plain"]
     assert "c" not in candidates(scores)["detailed"]
+
+
+def test_in_a_small_archive_every_photo_is_tried_what_looks_best_first():
+    assert are_few(12, 20)
+    assert are_few(1, ALL_PAIRS)
+    assert not are_few(30, 40)
+    assert ranked({"hall": {"a": 1.0, "b": 9.0, "c": 1.0}}) == {"hall": ["b", "a", "c"]}
 
 
 # By its looks alone, "b" goes to the cellar.

@@ -41,7 +41,7 @@ _LARGEST_PREVIEW, _LARGEST_ITEM = 1 << 22, 1 << 22
 _STATES = {
     "done": "colorized",
     "guessed": "colorized from guesses",
-    "unshown": "shown by no photo",
+    "unshown": "no certain photo",
     "failed": "failed",
     "open": "not begun",
 }
@@ -132,7 +132,9 @@ def _entries(root, session):
             # Older reports may exist from a time when a photo showed it, or scans of its file.
             for older in [older for older in entries if older.startswith(f"{label}+")]:
                 del entries[older]
-            entries[label] = _entry(label, "unshown", note="no photo shows this scan")
+            entries[label] = _entry(
+                label, "unshown", note="no photo that was tried shows it for certain, so it has no colors"
+            )
         if item.get("outcome") == "failed":
             own = [label for label in entries if label == name or label.startswith(f"{name}+")]
             for label in own or [name]:

@@ -6,6 +6,8 @@ from statistics import median_high
 
 from ...files.exif import Moment
 
+# Up to so many pairs of a scan and a photo, all are matched: first looks save little there, and may miss what fits.
+ALL_PAIRS = 300
 # How many scans each photo is matched with at most, and how much lower their scores may be than the best one's.
 MOST_SCANS, LEAST_SHARE = 6, 0.4
 # Photos taken within this many seconds, or meters, of each other probably show the same thing.
@@ -56,6 +58,16 @@ def candidates(scores, moments=None, scanned=None):
         name: [photo for _, photo in sorted(own, key=lambda entry: (-entry[0], entry[1]))]
         for name, own in chosen.items()
     }
+
+
+def are_few(scans, photos):
+    """Whether all pairs of so many scans and photos are matched, whatever the first looks say."""
+    return scans * photos <= ALL_PAIRS
+
+
+def ranked(scores):
+    """Return all photos of each item, what looks best first; ``scores`` as for `candidates`."""
+    return {name: sorted(own, key=lambda photo: (-own[photo], photo)) for name, own in scores.items()}
 
 
 def _of_the_best(shares):

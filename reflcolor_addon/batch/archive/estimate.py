@@ -3,7 +3,7 @@
 from ...files.memory import readable
 from ...messages import Message
 from ..plan import RENDER
-from .candidates import MOST_SCANS
+from .candidates import MOST_SCANS, are_few
 from .costs import SECONDS_PER_LOOK, memory_of, pixels_of, seconds_of
 from .progress_lines import duration
 
@@ -33,8 +33,10 @@ def estimate(manifest, options):
         )
     ]
     offered = sum(item.offered for item in manifest.items)
-    # Each photo is matched with few scans, whatever the number of scans.
-    pairs = len(manifest.photos) * min(MOST_SCANS, offered) / max(offered, 1)
+    pairs = len(manifest.photos)
+    if not are_few(offered, pairs):
+        # Each photo is matched with few scans, whatever the number of scans.
+        pairs *= min(MOST_SCANS, offered) / offered
     seconds = sum(
         seconds_of(item.plan.scans, pairs if item.offered else 0 if item.plan.seeds else len(item.plan.photos))
         + SECONDS_PER_LOOK * len(manifest.photos) * item.offered

@@ -3,7 +3,7 @@
 from ...files.exif import moment_of
 from ...files.readers.e57_file import acquired_at
 from ...messages import Message
-from .candidates import candidates
+from .candidates import are_few, candidates, ranked
 from .costs import memory_of
 from .workers import Task
 
@@ -39,15 +39,8 @@ def photos_of_items(context, items, known_pairs):
                 alone = outcome.get("alone", False)
                 tasks.append(task.again(0.0 if alone else context.options.wait_s, alone))
                 return
+            # What is wrong is told when the item is colorized.
             unseen.add(task.name)
-            if not outcome.get("cancelled"):
-                context.session.warnings.append(
-                    Message(
-                        "{name}: {problem}; all photos are matched with it",
-                        name=task.name,
-                        problem=outcome["error"].rstrip("."),
-                    )
-                )
             return
         scores[task.name] = outcome["found"]["scores"]
         problems.update(outcome["found"]["problems"])
@@ -58,8 +51,11 @@ def photos_of_items(context, items, known_pairs):
     context.work(tasks, finished, "Looked at photos for")
     for path, problem in problems.items():
         context.session.warnings.append(Message("{photo}: {problem}", photo=photos[path], problem=problem))
-    moments = {path: moment_of(path) for path in photos}
-    chosen = candidates(scores, moments, {item.name: _scanned_at(item) for item in items})
+    if are_few(sum(item.offered for item in context.manifest.items), len(photos)):
+        chosen = ranked(scores)
+    else:
+        moments = {path: moment_of(path) for path in photos}
+        chosen = candidates(scores, moments, {item.name: _scanned_at(item) for item in items})
     return {
         item.name: [*known(item, True), *(known(item, None) if item.name in unseen else chosen.get(item.name, []))]
         for item in items

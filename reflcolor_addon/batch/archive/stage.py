@@ -143,11 +143,16 @@ def remember_item(context, state):
 def _line(state, outcome, count, whole):
     said = {
         DONE: Message("done in {seconds:.0f} s", seconds=outcome.get("seconds", 0)),
-        UNSHOWN: Message("no photo shows it"),
+        UNSHOWN: Message("none of {tried} photos tried shows it for certain", tried=_tried(outcome)),
         FAILED: Message("failed: {problem}", problem=_bare(state.error)),
         OPEN: Message("interrupted"),
     }[state.outcome]
     return Message("{name}: {said} ({count} of {whole})", name=state.item.name, said=said, count=count, whole=whole)
+
+
+def _tried(outcome):
+    """How many photos an item was matched with."""
+    return len({pair["path"] for pair in outcome.get("photos") or ()})
 
 
 def _bare(text):
