@@ -26,7 +26,7 @@ for kind in "$@"; do
     case $kind in
         plain) PYTHONPATH=$bundled "$python" -m pytest -m "$chosen" -n "$workers" --dist loadfile || status=$? ;;
         # shellcheck disable=SC2086
-        smoke) PYTHONPATH=$bundled "$python" -m pytest -m "$chosen" -n "$workers" --dist loadfile $smoke || status=$? ;;
+        smoke) PYTHONPATH=$bundled "$python" -m pytest -m "not blender and not slow" -n "$workers" --dist loadfile $smoke || status=$? ;;
         blender) PYTHONPATH=${BPY:-} "$python" -m pytest --blender -n "$workers" --dist loadfile || status=$? ;;
         *) echo "run_tests: no kind of tests $kind" >&2; exit 2 ;;
     esac
