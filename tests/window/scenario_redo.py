@@ -20,8 +20,10 @@ ACTS = (
     ("show_look", {"look": "confidence"}),
     ("apply_preset", {"preset": "Enhanced"}),
     ("remove_seed", {"index": 0}),
+    # The last one: it hides the scan and makes another object the active one.
+    ("make_light_mesh", {"faces": 20_000}),
 )
-DIALOGS = {"add_seed", "move_seed"}
+DIALOGS = {"add_seed", "move_seed", "make_light_mesh"}
 # Tried by the file browser; what takes too long to be done twice;
 # and what the example has nothing for.
 ELSEWHERE = {"import_scan", "match_photos", "seeds_from_color"}
