@@ -5,7 +5,7 @@ import json
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from small_scans import random_scan, scan_from_ranges
@@ -83,6 +83,7 @@ def test_presets_leave_the_tone_alone(preset):
 
 @pytest.mark.parametrize("space", SPACES)
 @pytest.mark.parametrize("preset", PRESETS)
+@settings(max_examples=20)
 @given(tone=tones)
 def test_only_the_luminance_changes(space, preset, tone):
     scan = random_scan(shape=(8, 11))
