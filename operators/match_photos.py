@@ -82,13 +82,13 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
             obj.reflcolor.matches_image = write_packed(
                 own_image(obj, "matches_image"), f"{obj.name} Matches", picture, is_data=False
             )
-            self._tell(obj, job.matching, one_of_several=len(results) > 1)
+            self._show_found(obj, job.matching, one_of_several=len(results) > 1)
             done.append((obj, job.matching))
         counts = ", ".join(f"{obj.name} ({len(matching.seeds)})" for obj, matching in done)
         together = report_text("Found seeds for {count} scans: {counts}", count=len(done), counts=counts)
         show_results(self, [obj for obj, _ in done], together, self._skipped)
 
-    def _tell(self, obj, matching, *, one_of_several):
+    def _show_found(self, obj, matching, *, one_of_several):
         said = report_text("Found {count} seeds for {name}", count=len(matching.seeds), name=obj.name)
         details = [f"{photo.name}: {shown(photo.note)}" for photo in matching.photos]
         show_result(self, obj, said, matching.warnings, details=details, one_of_several=one_of_several)

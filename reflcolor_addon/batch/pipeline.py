@@ -72,7 +72,7 @@ def run_plan(plan, session):
                 cancelled=session.cancelled,
             )
         session.matchings += [job.matching for job in jobs]
-        _tell_matching(jobs, session)
+        _report_matching(jobs, session)
         jobs = _shown(jobs, plan, session)
     count = len(jobs)
     with writing(plan, jobs, session) as write:
@@ -120,7 +120,7 @@ def _take_colors(jobs, plan):
         )
 
 
-def _tell_matching(jobs, session):
+def _report_matching(jobs, session):
     for job in jobs:
         session.warnings += _named(job, len(jobs), job.matching.warnings)
         notes = [Message("{photo}: {note}", photo=photo.name, note=photo.note) for photo in job.matching.photos]

@@ -55,12 +55,12 @@ class _Writer:
         places = [(output, job) for output in plan.outputs for job in jobs]
         own = [(output.of(job.label).path, output.kind, job) for output, job in places]
         self.paths = list(dict.fromkeys(path for path, *_ in own))
-        self._told = {path: (kind, job) for path, kind, job in own}
+        self._written_from = {path: (kind, job) for path, kind, job in own}
 
     @property
     def lines(self):
         """What is there, one line for each file."""
-        for path, (kind, job) in self._told.items():
+        for path, (kind, job) in self._written_from.items():
             if kind == SEEDS:
                 yield Message("wrote {path}: {count} seeds", path=path, count=len(job.seeds))
             else:
@@ -71,7 +71,7 @@ class _Writer:
         with timed(job.times, "write"):
             for output in job.outputs:
                 if output.kind in _SEED_WRITERS:
-                    self._tell(output)
+                    self._show_writing(output)
                     _SEED_WRITERS[output.kind](job, self._plan, output.path)
             if self._reported:
                 job.report = self._report(job)
@@ -95,7 +95,7 @@ class _Writer:
             with timed(job.times, "write"):
                 for output in job.outputs:
                     if output.kind == IMAGE:
-                        self._tell(output)
+                        self._show_writing(output)
                         write_png(output.path, rgb)
             job.times["write"] = round(job.times["write"] + shared["write"], 3)
         # Each names the hashes of its outputs, so it comes after all of them.
@@ -105,7 +105,7 @@ class _Writer:
                     self._write_report(job, output)
 
     def _write_report(self, job, output):
-        self._tell(output)
+        self._show_writing(output)
         with timed(job.times, "write"):
             outputs = [self._output_entry(entry, output.path) for entry in job.report["outputs"]]
         write_report(output.path, job.report | {"outputs": outputs, "times_s": job.times})
@@ -116,7 +116,7 @@ class _Writer:
             return entry
         return output_entry(entry["option"], Path(entry["path"]), report_path, self._session.cancelled)
 
-    def _tell(self, output):
+    def _show_writing(self, output):
         self._session.progress(1.0, Message("Writing {name}", name=output.path.name))
 
     def _let_go(self):

@@ -23,7 +23,7 @@ from .passing import may_pass
 from .registrations import Registrations
 
 MARK = "\x1e"
-_TELL_EVERY_S = 0.2
+_SHOW_EVERY_S = 0.2
 # How long a file that is being written may take to be finished after the parent has ended.
 _ENDS_WITHIN_S = 10
 
@@ -49,7 +49,7 @@ class _Worker:
         self._outer = session
         self._requests, self._more = [], threading.Condition()
         self._ended = False
-        self._told = 0.0
+        self._shown_at = 0.0
 
     def listen(self, lines):
         for line in lines:
@@ -77,8 +77,8 @@ class _Worker:
         return self._ended or self._outer.cancelled()
 
     def show(self, fraction, text):
-        if time.monotonic() - self._told >= _TELL_EVERY_S:
-            self._told = time.monotonic()
+        if time.monotonic() - self._shown_at >= _SHOW_EVERY_S:
+            self._shown_at = time.monotonic()
             self.answer({"progress": fraction, "text": str(text)})
 
     def answer(self, document):

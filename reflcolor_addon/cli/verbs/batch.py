@@ -97,7 +97,7 @@ def run(arguments, session):
         raise
     if first is None and len(options.stages) == len(STAGES):
         _write_page(manifest.folder.root, states, session)
-    _tell(states, arguments, session)
+    _report_states(states, arguments, session)
 
 
 def _write_page(root, states, session):
@@ -111,7 +111,7 @@ def _write_page(root, states, session):
         session.complain(str(error))
 
 
-def _tell(states, arguments, session):
+def _report_states(states, arguments, session):
     count = Counter(state.outcome for state in states)
     session.say(
         Message(

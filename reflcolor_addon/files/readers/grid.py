@@ -19,7 +19,7 @@ BYTES_PER_PIXEL = 80
 LIGHTER = Message("read every second row and column only: --step 2, or Every in the import dialog")
 """What to do where memory does not suffice."""
 
-_MOST_TOLD = 5
+_MOST_REASONS = 5
 """This many of the scans that are left out are listed one by one."""
 
 
@@ -152,7 +152,7 @@ def with_problems(finished, problems, count, source):
             count=count,
             reason=reasons[0],
         )
-    left_out = [Message("left out: {reason}", reason=reason) for reason in reasons[:_MOST_TOLD]]
+    left_out = [Message("left out: {reason}", reason=reason) for reason in reasons[:_MOST_REASONS]]
     if more := len(reasons) - len(left_out):
         left_out.append(Message("left out: {count:,} more scans, for similar reasons", count=more))
     return [replace(finished[0], warnings=finished[0].warnings + tuple(left_out)), *finished[1:]]
