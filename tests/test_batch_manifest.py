@@ -194,6 +194,13 @@ def test_a_draft_leaves_out_images_that_belong_to_a_scan_and_results_of_a_batch(
     assert "old.ptx" not in text and "colored/" not in text
 
 
+def test_a_draft_takes_a_text_of_points_for_a_scan_and_leaves_out_other_texts(folder):
+    (folder / "README.txt").write_text("Hall, scanned in 2003 by Anna\n1 photo is missing\n\n12, 13\n")
+    (folder / "cloud.txt").write_text("// x;y;z;intensity\n1.5;2.5;3.5;0.2\n")
+    text = draft(folder, folder / "batch.toml")
+    assert "cloud.txt" in text and "README.txt" not in text
+
+
 def test_seeds_named_for_all_scans_may_be_missing_where_there_are_photos(folder):
     Seeds([1], [2], [[1, 2, 3]]).save(folder / "hall_0.json")
     manifest, faults = read(folder, HEAD + 'scans = "hall_*.ptx"\nphotos = "photos/a.png"\nseeds = "{scan}.json"\n')

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...errors import ReflcolorError, UsageError
 from ...files.images import IMAGE_SUFFIXES
-from ...files.readers import SCAN_SUFFIXES
+from ...files.readers import SCAN_SUFFIXES, text_cloud
 from ...report.archive import STATE
 from ..paths import scan_files
 
@@ -61,7 +61,7 @@ def draft(folder, path):
     if not folder.is_dir():
         raise UsageError("{folder}: is not a folder; name the one that holds the scans", folder=folder)
     files = sorted(_files(folder), key=lambda file: file.as_posix())
-    scans = [file for file in files if file.name.lower().endswith(SCAN_SUFFIXES)]
+    scans = [file for file in files if file.name.lower().endswith(SCAN_SUFFIXES) and not _is_other_text(file)]
     if not scans:
         raise UsageError(
             "{folder}: holds no scan; expected files that end in one of {known}",
@@ -109,6 +109,11 @@ def _files(folder):
         here = Path(root)
         folders[:] = sorted(name for name in folders if not name.startswith(".") and not (here / name / STATE).is_dir())
         yield from (here / name for name in names if not name.startswith(".") and (here / name).is_file())
+
+
+def _is_other_text(file):
+    """Whether a file is a text without points, such as notes."""
+    return file.suffix.lower() in text_cloud.FORMAT.suffixes and not text_cloud.begins_with_points(file)
 
 
 def _suffix(file):

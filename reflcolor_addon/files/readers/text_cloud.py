@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from ...errors import ScanError
+from ...errors import ReflcolorError, ScanError
 from ...scan.limits import MOST_PIXELS
+from ..gate import opened
 from .cloud import check_size, scan_of_columns
 from .formats import Format
 from .options import AS_IT_IS
@@ -11,6 +12,8 @@ from .text_lines import TextLines
 
 _WIDTHS = {3: "", 4: "i", 6: "rgb", 7: "irgb"}
 _SHORTEST_LINE = 6
+# Bytes from the beginning of a file in which a point is looked for.
+_START = 4096
 
 
 def read_text_cloud(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -47,6 +50,23 @@ def read_text_cloud(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     table = np.concatenate(parts)
     columns = dict(zip("xyz", table.T, strict=False)) | dict(zip(_WIDTHS[width], table.T[3:], strict=True))
     return [scan_of_columns(path, columns, options=options)]
+
+
+def begins_with_points(path):
+    """Whether a text file holds a point within its first lines; also where it cannot be opened, which is told later."""
+    try:
+        with opened(path, "a scan file", may_be_empty=True) as file:
+            start = file.read(_START).decode("utf-8", errors="replace")
+    except ReflcolorError:
+        return True
+    return any(_is_point(line) for line in start.replace(",", " ").replace(";", " ").splitlines())
+
+
+def _is_point(line):
+    try:
+        return len([float(word) for word in line.split()]) >= min(_WIDTHS)
+    except ValueError:
+        return False
 
 
 def _lines_before(chunk):
