@@ -172,6 +172,9 @@ def _steps_by_filling(down, along):
 def _filled_steps(down, along, aspect):
     """Such steps of a given width over height, and how many pixels hold a return then."""
     step = np.sqrt(np.ptp(along) * np.ptp(down) / len(along)) / 2
+    if step == 0:
+        # The product is too small for a float, its factors are not.
+        step = np.sqrt(np.ptp(along)) * np.sqrt(np.ptp(down)) / len(along)
     while True:
         steps = float(step / np.sqrt(aspect)), float(step * np.sqrt(aspect))
         # Almost in one line, points would otherwise have more rows or columns than can be counted.
