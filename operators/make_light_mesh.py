@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from bpy.props import IntProperty
 
+from ..reflcolor_addon.batch.memory import require_light_mesh
 from ..reflcolor_addon.matching import grid_texture
 from ..reflcolor_addon.scan.georeference import shifted
 from ..reflcolor_addon.scan.grid_mesh import MAX_INCIDENCE_DEG
@@ -60,6 +61,7 @@ class REFLCOLOR_OT_make_light_mesh(JobOperator, bpy.types.Operator):
 
         def work(progress, cancelled):
             scan = read()
+            require_light_mesh(scan)
             scan = replace(scan, name=f"{name} Light", pose=shifted(scan.pose, shift))
             light = light_mesh(scan, faces, decimate, **options, progress=progress, cancelled=cancelled)
             return light, None if own_image else packed_pixels(grid_texture(scan, shown_rgb), name)

@@ -3,6 +3,7 @@
 from ..operators.scene import polls
 from ..operators.scene.properties import scene_picture
 from ..operators.scene.render import lacks_surface
+from ..operators.scene.scan_object import is_light
 from ..operators.scene.setting_properties import COLORIZE_NAMES, active_preset
 from ..operators.scene.texts import label
 from ..operators.window import live_update
@@ -56,7 +57,7 @@ class Colorize(Step):
             layout.label(text="Set Up Render again to show this", icon="INFO")
         if obj is None:
             layout.label(text="Needs a scan", icon="INFO")
-        elif not any(scan.reflcolor.seeds for scan in polls.scan_objects(context)):
+        elif not is_light(obj) and not any(scan.reflcolor.seeds for scan in polls.scan_objects(context)):
             layout.label(text="Needs seeds", icon="INFO")
 
 

@@ -12,7 +12,7 @@ from .plan import MESH, RENDER, SCANS, SCENE
 # Peak bytes of each step, in addition to the loaded scans; docs/reliability.md describes how they were measured. For
 # each pixel of a scan:
 _RESULT = 16
-_LIGHT_MESH = 1400
+_LIGHT_MESH = 1600
 _WRITING = {MESH: 60, SCANS: 60, SCENE: 360, RENDER: 700}
 # Photos are matched on a smaller grid of limited size; the scan's own grid is needed as well.
 _MATCHING, _MATCHING_MOST, _MATCHING_ALWAYS = 2400, 550e6, 130
@@ -61,6 +61,11 @@ def require_matching(jobs, photos):
 def require_objects(scans, path):
     """The same for making objects of the scans of a file in Blender."""
     _require({Message("making meshes"): _WRITING[SCENE] * sum(scan.valid.size for scan in scans)}, path.name)
+
+
+def require_light_mesh(scan):
+    """The same for making the mesh of a Scan lighter."""
+    _require({Message("making the mesh lighter"): _LIGHT_MESH * scan.valid.size}, scan.name)
 
 
 def bytes_of_matching(jobs, photos):
