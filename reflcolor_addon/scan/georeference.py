@@ -46,6 +46,13 @@ def local_center(scan):
     return np.round(np.median(points, axis=0) / _ROUND_TO) * _ROUND_TO
 
 
+def pose_at(scan, center):
+    """Return the (4, 4) float64 pose for vertices that are measured from a center, (3,) in the scanner's frame."""
+    pose = scan.pose.copy()
+    pose[:3, 3] = scan.pose[:3, :3] @ center + scan.pose[:3, 3]
+    return pose
+
+
 def rigid_pose(matrix, meters, center):
     """Return the pose of a scan whose vertices are measured from a center and brought into the world by a matrix.
 

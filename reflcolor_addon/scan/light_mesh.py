@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .georeference import local_center
+from .georeference import local_center, pose_at
 from .mesh_surface import MeshSurface
 from .normalization import normalize
 from .object_arrays import ObjectArrays
@@ -111,8 +111,6 @@ class LightMesh:
             As `object_arrays` takes them.
         """
         scan, own, center = self.scan, self.own, local_center(self.scan)
-        pose = scan.pose.copy()
-        pose[:3, 3] = scan.pose[:3, :3] @ center + scan.pose[:3, 3]
         corners = self.same[self.triangles]
         # From every corner to the next one of its triangle.
         ends = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
@@ -126,7 +124,7 @@ class LightMesh:
             units_per_meter=units_per_meter,
             max_incidence_deg=max_incidence_deg,
             center=center,
-            pose=pose,
+            pose=pose_at(scan, center),
             coordinates=((self.points[:own] - center) * units_per_meter).astype(np.float32).ravel(),
             corners=corners.ravel(),
             edges=edges.astype(np.int32).ravel(),

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .georeference import local_center
+from .georeference import local_center, pose_at
 from .grid_mesh import MAX_INCIDENCE_DEG, grid_mesh
 from .normalization import normalize
 
@@ -112,8 +112,6 @@ def object_arrays(scan, *, units_per_meter=1.0, max_incidence_deg=MAX_INCIDENCE_
     """
     mesh, valid = grid_mesh(scan, max_incidence_deg), scan.valid
     center = local_center(scan)
-    pose = scan.pose.copy()
-    pose[:3, 3] = scan.pose[:3, :3] @ center + scan.pose[:3, 3]
     luminance, _ = normalize(scan.reflectance, valid)
     range_image, _ = normalize(scan.range, valid)
     return ObjectArrays(
@@ -124,7 +122,7 @@ def object_arrays(scan, *, units_per_meter=1.0, max_incidence_deg=MAX_INCIDENCE_
         units_per_meter=units_per_meter,
         max_incidence_deg=max_incidence_deg,
         center=center,
-        pose=pose,
+        pose=pose_at(scan, center),
         coordinates=local_coordinates(scan, center, units_per_meter).ravel(),
         corners=mesh.quads.ravel(),
         edges=mesh.edges.ravel(),
