@@ -26,7 +26,7 @@ def estimate(manifest, options):
     pixels = sum(pixels_of(item.plan.scans) for item in items)
     lines = [
         Message(
-            "{count} scans of about {pixels:.1f} megapixels together, {photos} photos",
+            "scans: {count}, about {pixels:.1f} megapixels together; photos: {photos}",
             count=sum(len(item.plan.scans) for item in items),
             pixels=pixels / 1e6,
             photos=len({path for item in items for path in item.plan.photos}),
@@ -46,7 +46,7 @@ def estimate(manifest, options):
     needs = sorted((memory_of(item.plan.scans) for item in items), reverse=True)
     lines.append(
         Message(
-            "about {time} with {workers} processes, and at most {memory} of memory",
+            "about {time} if nothing else runs (processes: {workers}), and at most {memory} of memory",
             time=duration(seconds / options.workers),
             workers=options.workers,
             memory=readable(min(sum(needs[: options.workers]), max(options.memory, needs[0]))),

@@ -115,7 +115,7 @@ def _report_states(states, arguments, session):
     count = Counter(state.outcome for state in states)
     session.say(
         Message(
-            "{done} done, {known} done before, {failed} failed, {unshown} shown by no photo, {rest} not begun",
+            "{done} done, {known} done before, {failed} failed, {unshown} without a certain photo, {rest} not begun",
             done=count[DONE],
             known=count[KNOWN],
             failed=count[FAILED],
