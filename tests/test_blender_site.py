@@ -386,6 +386,15 @@ def test_scans_that_are_joined_keep_their_colors_and_are_no_longer_taken_for_one
         seeded.ops.reflcolor.colorize()
 
 
+def test_scans_that_are_joined_are_rendered_together(seeded):
+    points = sum(len(seeded.data.objects[name].data.vertices) for name in ("wall", "floor"))
+    select(seeded, "wall", "floor")
+    seeded.ops.object.join()
+    assert seeded.ops.reflcolor.set_up_render() == {"FINISHED"}
+    assert seeded.context.scene.camera is not None
+    assert len(seeded.data.objects["wall"].data.vertices) == points
+
+
 def colors_of(obj):
     attribute = obj.data.color_attributes["Colorized"].data
     rgba = np.empty(4 * len(attribute), np.float32)

@@ -11,6 +11,7 @@ from .collections import PICTURE, own_collection
 from .nodes import node_tree_of
 from .picture_material import give_look
 from .polls import closed_mesh, light_mesh
+from .scan_object import is_joined
 from .shown_surface import add_surface, has_surface, remove_surface, switch_surface
 from .viewpoint import covered_by_sidebar, view_of
 
@@ -82,11 +83,14 @@ def scans_of(scene):
 
 
 def fillable_scans(scene):
-    """Return those of the scene's scans that can be written to; the others are shown as they were measured."""
+    """Return those of the scene's scans whose own mesh can be written to; the others are shown as they are."""
     return [
         obj
         for obj in scans_of(scene)
-        if closed_mesh(obj) is None and light_mesh(obj) is None and not obj.library and len(obj.data.vertices)
+        if closed_mesh(obj) is None
+        and light_mesh(obj) is None
+        and not (obj.library or is_joined(obj))
+        and len(obj.data.vertices)
     ]
 
 
