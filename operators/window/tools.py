@@ -11,7 +11,9 @@ _registered = []
 def draw_settings(context, layout, _tool):
     """What the next click will do, and in which color."""
     settings = context.scene.reflcolor
-    draw_color(layout, settings)
+    # The label of a property is as wide as its field; in a narrow header that leaves no room for what follows.
+    layout.label(text="Seed Color")
+    draw_color(layout, settings, text="")
     if not settings.picked:
         layout.label(text="Click scan, then photo, or choose a color", icon="INFO")
     layout.prop(context.window_manager.reflcolor, "live_update", toggle=True, icon="FILE_REFRESH")
@@ -20,10 +22,10 @@ def draw_settings(context, layout, _tool):
     layout.prop(settings, "stroke_spacing")
 
 
-def draw_color(layout, settings):
+def draw_color(layout, settings, text="Seed Color"):
     """The color of the tool: it is always there, and used once it was chosen."""
     row = layout.row(align=True)
-    row.prop(settings, "picked_color", text="Seed Color")
+    row.prop(settings, "picked_color", text=text)
     if settings.picked:
         row.operator("reflcolor.drop_color", text="", icon="X")
 
