@@ -5,6 +5,7 @@ import signal
 import stat
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -219,6 +220,43 @@ def test_the_next_run_cleans_what_a_killed_one_left_and_nothing_else(tmp_path, a
         assert [path.name for path in tmp_path.glob(".reflcolor-*/b.txt")] == ["b.txt"]
     finally:
         killed(alive)
+
+
+def test_the_next_run_cleans_the_temporary_folder_of_a_killed_one(tmp_path, another_run, monkeypatch):
+    script = """
+import time
+from reflcolor_addon.files.work_folder import scratch_folder
+with scratch_folder() as folder:
+    (folder / "mesh.npy").write_bytes(b"x" * 1000)
+    print("writing", flush=True)
+    time.sleep(60)
+"""
+    for name in ("TMPDIR", "TEMP", "TMP"):
+        monkeypatch.setenv(name, str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    dead, alive = started(script), started(script)
+    try:
+        killed(dead)
+        with work_folder.scratch_folder() as folder:
+            assert folder.parent == tmp_path
+            assert len(names(tmp_path)) == 2
+    finally:
+        killed(alive)
+
+
+@POSIX
+def test_a_folder_that_a_stranger_made_changes_no_file(tmp_path, another_run):
+    secret, target = tmp_path / "secret", tmp_path / "a.txt"
+    secret.write_text("secret")
+    target.write_text("mine")
+    folder = tmp_path / ".reflcolor-sent"
+    folder.mkdir()
+    (folder / ".reflcolor-owner").touch()
+    (folder / ".reflcolor-name").write_text(f"{target.stat().st_ino}\na.txt")
+    (folder / ".reflcolor-before").symlink_to(secret)
+    write(tmp_path / "b.txt")
+    assert target.read_text() == "mine"
+    assert not folder.exists()
 
 
 @POSIX

@@ -325,6 +325,20 @@ def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cl
     assert not (cli_folder / "c.png").exists()
 
 
+def test_what_was_noticed_before_an_error_is_said_before_it(run_cli, cli_folder):
+    def write_scene(*_):
+        raise OutputError("b.usd: cannot be written (No space left on device)")
+
+    write_png(cli_folder / "idle.png", np.zeros((20, 20, 3), np.uint8))
+    status, out, err = run_cli(
+        *COLORIZE, "--photo", "idle.png", "-o", "b.usd", blender=blender_tasks(write_scene=write_scene)
+    )
+    assert (status, out) == (1, "")
+    assert err == (
+        "warning: idle.png: no seed names this photo\nerror: b.usd: cannot be written (No space left on device)\n"
+    )
+
+
 # Seeds from the scan's own colors
 
 

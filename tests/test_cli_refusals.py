@@ -177,7 +177,7 @@ def test_an_e57_with_a_bad_checksum_is_said_in_one_line(run_cli, cli_folder):
         (("-o", "gone/more.png"), "there is no folder gone; make it first"),
         (("-o", "folder.png"), "folder.png: cannot be written: it is a directory"),
         (("-o", "garage.ptx/more.png"), "cannot be written"),
-        (("-o", f"{'long' * 100}.png"), "cannot be written (File name too long)"),
+        (("-o", f"{'long' * 100}.png"), "cannot be written (File name too long); choose a shorter name"),
         (("--report", "gone/r.json"), "there is no folder gone; make it first"),
     ],
     ids=lambda value: "" if isinstance(value, str) else " ".join(value)[:40],

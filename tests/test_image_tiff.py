@@ -223,7 +223,9 @@ def test_what_is_not_read_is_told(tmp_path, image, options, said):
 
 def test_signed_samples_are_no_photo(tmp_path):
     path = written(tmp_path, np.ones(SHAPE, np.int16), photometric="minisblack")
-    assert "its samples are signed, expected colors from 0 on" in failure(path, read_image)
+    assert "its samples are signed, expected colors from 0 on; save the photo with 8 or 16 bits, unsigned" in failure(
+        path, read_image
+    )
 
 
 def test_a_palette_and_jpeg_are_read_as_usual(tmp_path):

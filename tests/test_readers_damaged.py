@@ -122,7 +122,7 @@ def test_a_file_that_may_not_be_read_is_told(tmp_path, monkeypatch):
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(os, "open", refuse)
-    assert outcome(path) == f"{path}: cannot be read (Permission denied)"
+    assert outcome(path) == f"{path}: cannot be read (Permission denied); ask its owner for the right to read it"
 
 
 def test_numbers_of_an_e57_header_may_be_anything(tmp_path):

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import tempfile
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy as np
 
 from ...reflcolor_addon.errors import Cancelled, ReflcolorError
 from ...reflcolor_addon.files.confined.python_program import python_program
+from ...reflcolor_addon.files.work_folder import scratch_folder
 from ...reflcolor_addon.messages import Message
 
 _PROGRAM = Path(__file__).with_name("decimation_program.py")
@@ -47,8 +47,7 @@ def decimate(coordinates, corners, sizes, fixed, faces, *, progress=None, cancel
     Cancelled
         If ``cancelled()`` returned True.
     """
-    with tempfile.TemporaryDirectory(prefix="reflcolor-") as name:
-        folder = Path(name)
+    with scratch_folder() as folder:
         given = {"coordinates": coordinates, "corners": corners, "sizes": sizes, "fixed": np.flatnonzero(fixed)}
         for kind, array in given.items():
             np.save(folder / f"{kind}.npy", np.ascontiguousarray(array), allow_pickle=False)

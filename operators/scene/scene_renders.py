@@ -5,8 +5,6 @@ The scene is linked into a scene of its own for the time of the renders, so that
 
 from contextlib import ExitStack, contextmanager
 from math import radians
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import bpy
 import numpy as np
@@ -14,6 +12,7 @@ from mathutils import Matrix
 
 from ...reflcolor_addon.errors import SettingsError
 from ...reflcolor_addon.files.exr import read_exr_channels
+from ...reflcolor_addon.files.work_folder import scratch_folder
 from ...reflcolor_addon.simulation.cryptomatte import name_as_float
 from ...reflcolor_addon.simulation.virtual_camera import Photo
 from ...reflcolor_addon.simulation.virtual_scanner import Hits
@@ -69,8 +68,7 @@ class SceneRenders:
         self._camera_data.clip_start, self._camera_data.clip_end = 1e-4, 1e6
         scene.collection.objects.link(self._camera)
         scene.camera = self._camera
-        folder = undo.enter_context(TemporaryDirectory(dir=bpy.app.tempdir or None))
-        _choose_renderer(scene, Path(folder) / "passes.exr")
+        _choose_renderer(scene, undo.enter_context(scratch_folder()) / "passes.exr")
 
     def caster(self, pose):
         """Return the ``cast`` function for `simulate_scan` of a scanner with this (4, 4) pose (Z up, looking along +Y).

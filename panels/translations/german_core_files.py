@@ -16,7 +16,16 @@ _GATE = {
     "{file}: has {size}, expected {expected} of at most {most}": (
         "{file}: hat {size}, erwartet {expected} von höchstens {most}"
     ),
-    "{file}: cannot be read ({reason})": "{file}: kann nicht gelesen werden ({reason})",
+    "{file}: cannot be read ({reason}); {way}": "{file}: kann nicht gelesen werden ({reason}); {way}",
+    "no file has so long a name; check how it is spelled": (
+        "keine Datei hat einen so langen Namen; die Schreibweise prüfen"
+    ),
+    "its links lead in a circle; name the file itself": "die Verknüpfungen führen im Kreis; die Datei selbst nennen",
+    "a part of its path is no folder; check how it is spelled": (
+        "ein Teil des Pfads ist kein Ordner; die Schreibweise prüfen"
+    ),
+    "ask its owner for the right to read it": "den Besitzer um das Recht bitten, sie zu lesen",
+    "copy it to another folder, and name the copy": "sie in einen anderen Ordner kopieren und die Kopie nennen",
     "{file}: is too large, expected {expected}": "{file}: ist zu groß, erwartet {expected}",
     "{file}: expected {expected}, found bytes that are not text": (
         "{file}: erwartet {expected}, gefunden Bytes, die kein Text sind"
@@ -99,8 +108,8 @@ _IMAGES = {
     "{file}: claims to be {width:,} x {height:,} pixels, more than the file can hold": (
         "{file}: will {width:,} x {height:,} Pixel haben, mehr, als die Datei enthalten kann"
     ),
-    "{file}: its samples are signed, expected colors from 0 on": (
-        "{file}: die Werte haben Vorzeichen, erwartet Farben ab 0"
+    "{file}: its samples are signed, expected colors from 0 on; save the photo with 8 or 16 bits, unsigned": (
+        "{file}: die Werte haben Vorzeichen, erwartet Farben ab 0; das Foto mit 8 oder 16 Bit ohne Vorzeichen speichern"
     ),
     "{file}: its color profile{name} consists of tables, which are not supported; its colors are taken as sRGB": (
         "{file}: das Farbprofil{name} besteht aus Tabellen, die nicht unterstützt werden; die Farben gelten als sRGB"
@@ -133,7 +142,9 @@ _TIFF = {
     "{file}: not a whole TIFF: its tags are damaged or cut short": (
         "{file}: kein vollständiges TIFF: seine Tags sind beschädigt oder abgeschnitten"
     ),
-    "{file}: is a TIFF with {found}, expected {expected}": "{file}: TIFF: gefunden {found}, erwartet {expected}",
+    "{file}: is a TIFF with {found}, expected {expected}; save it as PNG, or as a plain TIFF": (
+        "{file}: TIFF: gefunden {found}, erwartet {expected}; als PNG oder einfaches TIFF speichern"
+    ),
     "a reduced image as its first one, as raw photos have": "ein verkleinertes erstes Bild, wie es Rohfotos haben",
     "a developed photo": "ein entwickeltes Foto",
     "samples of several kinds": "Werte verschiedener Art",
@@ -188,10 +199,11 @@ _WHOLE = {
 }
 
 _OUTPUTS = {
-    "{file}: cannot be written ({reason})": "{file}: kann nicht geschrieben werden ({reason})",
-    "{file}: cannot be written ({reason}); choose a folder that you may write to": (
-        "{file}: kann nicht geschrieben werden ({reason}); einen Ordner wählen, in den Sie schreiben dürfen"
-    ),
+    "{file}: cannot be written ({reason}); {way}": "{file}: kann nicht geschrieben werden ({reason}); {way}",
+    "choose a shorter name": "einen kürzeren Namen wählen",
+    "make room on the disk, or choose another": "Platz auf dem Datenträger schaffen oder einen anderen wählen",
+    "choose a folder that you may write to": "einen Ordner wählen, in den Sie schreiben dürfen",
+    "choose another folder": "einen anderen Ordner wählen",
     "{file}: cannot be written: {reason}": "{file}: kann nicht geschrieben werden: {reason}",
     "see whether the disk is full": "prüfen, ob der Datenträger voll ist",
     "{file}: cannot be written: there is no folder {folder}; make it first": (

@@ -43,7 +43,7 @@ class Session:
     left_out : list of str
         Labels of scans that no photo shows, and that were left out for it.
     warnings : list of str
-        What is to be said when all went well; a failure is the only line of its run.
+        What is to be said at the end, before the error where there is one.
     """
 
     say: Callable[[str], None] = _ignore

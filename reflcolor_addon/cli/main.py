@@ -58,8 +58,7 @@ def _outcome(argv, prog, session, console, interruption):
         arguments = _parser(prog).parse_args(argv)
         files = ", ".join(map(str, _inputs(arguments)))
         arguments.run(arguments, session)
-        for warning in session.warnings:
-            console.warn(warning)
+        _warn(session, console)
         return DONE, None
     except SystemExit as end:  # how argparse ends after --help and --version
         return int(end.code or 0), None
@@ -72,9 +71,16 @@ def _outcome(argv, prog, session, console, interruption):
         # A signal can show up as an error of the code that it interrupted.
         if interruption.requested():
             return interruption.exit_status, _INTERRUPTED
+        # What was noticed before may be the reason.
+        _warn(session, console)
         if isinstance(error, MemoryError) and files:
             line = f"{files}: {line}"
         return WRONG_USAGE if isinstance(error, UsageError) else BAD_INPUT, line
+
+
+def _warn(session, console):
+    for warning in session.warnings:
+        console.warn(warning)
 
 
 def _inputs(arguments):

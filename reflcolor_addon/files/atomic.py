@@ -8,12 +8,12 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ..errors import OutputError
+from .refusals import unwritable
 from .several_names import complete_rewriting, rewrite
 from .whole import fault_of
 from .work_folder import work_folder
 
 _NOT_WHOLE = "{file}: was not written completely ({fault}); check whether the disk is full. Any earlier file was kept"
-_FAILED = "{file}: cannot be written ({reason})"
 
 
 @contextmanager
@@ -41,7 +41,7 @@ def written_atomically(path):
                 raise OutputError(_NOT_WHOLE, file=path, fault=fault)
             _take_place(temporary, target, found)
     except OSError as error:
-        raise OutputError(_FAILED, file=path, reason=error.strerror or error) from error
+        raise unwritable(path, error) from error
 
 
 def require_writable(path):
@@ -64,10 +64,7 @@ def require_writable(path):
         with tempfile.TemporaryFile(dir=folder) as file:
             file.write(b"\0")
     except OSError as error:
-        reason = error.strerror or error
-        raise OutputError(
-            "{file}: cannot be written ({reason}); choose a folder that you may write to", file=path, reason=reason
-        ) from error
+        raise unwritable(path, error) from error
 
 
 def _destination(path):
@@ -78,8 +75,7 @@ def _destination(path):
     except FileNotFoundError:
         return target, None
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise OutputError(_FAILED, file=path, reason=reason) from error
+        raise unwritable(path, error) from error
     if stat.S_ISDIR(found.st_mode):
         raise OutputError("{file}: cannot be written: it is a directory; name a file", file=path)
     if not stat.S_ISREG(found.st_mode):

@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from ..errors import Cancelled, ReflcolorError
 from ..messages import Message
 from .memory import readable, require_memory
+from .refusals import unreadable
 
 _CHUNK = 1 << 24
 
@@ -58,11 +59,11 @@ def opened(path, expected, *, error=ReflcolorError, most=None, may_be_empty=Fals
     except FileNotFoundError as missing:
         raise error("{file}: no such file, expected {expected}", file=path, expected=expected) from missing
     except OSError as failed:
-        raise error("{file}: cannot be read ({reason})", file=path, reason=failed.strerror or failed) from failed
+        raise unreadable(path, failed, error) from failed
     except ValueError as failed:
         if isinstance(failed, ReflcolorError) or "null" not in str(failed):
             raise
-        raise error("{file}: cannot be read ({reason})", file=path, reason=failed) from failed
+        raise unreadable(path, failed, error) from failed
 
 
 def size_of(file):

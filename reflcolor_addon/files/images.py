@@ -107,7 +107,10 @@ def _eight_bit_colors(values, name):
         return np.rint(values * (255 / np.iinfo(values.dtype).max)).astype(np.uint8)
     if values.dtype.kind == "f":
         return _srgb_of_light(values)
-    raise ImageError("{file}: its samples are signed, expected colors from 0 on", file=name)
+    raise ImageError(
+        "{file}: its samples are signed, expected colors from 0 on; save the photo with 8 or 16 bits, unsigned",
+        file=name,
+    )
 
 
 def _in_srgb(image, data, name, warnings):

@@ -6,6 +6,7 @@ it meanwhile, so that a run that fails puts them back, and the next run does it 
 
 import os
 import shutil
+import stat
 from contextlib import suppress
 from pathlib import Path
 
@@ -46,6 +47,9 @@ def rewrite(target, new):
 def complete_rewriting(folder):
     """Put back what a killed run was overwriting, as the folder that it left tells."""
     with suppress(FileNotFoundError):
+        # A folder may as well have come with files that a stranger sent.
+        if not all(stat.S_ISREG((folder / part).lstat().st_mode) for part in (_NAME, _BEFORE)):
+            return
         inode, _, name = (folder / _NAME).read_bytes().partition(b"\n")
         target = folder.parent / Path(os.fsdecode(name)).name
         if b"%d" % target.stat(follow_symlinks=False).st_ino == inode:

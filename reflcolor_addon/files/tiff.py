@@ -93,7 +93,10 @@ def tiff_layout(data, name):
 def _layout(tags, file_size, name):
     def refuse(found, expected):
         raise ImageError(
-            "{file}: is a TIFF with {found}, expected {expected}", file=name, found=found, expected=expected
+            "{file}: is a TIFF with {found}, expected {expected}; save it as PNG, or as a plain TIFF",
+            file=name,
+            found=found,
+            expected=expected,
         )
 
     width, height = tags[256][0], tags[257][0]

@@ -1,4 +1,4 @@
-"""A temporary folder beside a file that is being written, and the removal of those that killed runs have left.
+"""Temporary folders, beside a file that is being written or elsewhere, and the removal of what killed runs have left.
 
 Its name begins with ``.reflcolor-``, and it holds a file that stays locked as long as its run lives. The system
 releases the lock when the run ends, however it ends; a process id would not work across containers and machines that
@@ -9,7 +9,7 @@ import os
 import shutil
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from tempfile import mkdtemp
+from tempfile import gettempdir, mkdtemp
 
 from .locks import try_lock
 
@@ -21,13 +21,13 @@ _cleaned: set[Path] = set()
 
 
 @contextmanager
-def work_folder(parent, *, rescue):
+def work_folder(parent, *, rescue=None):
     """Give a new folder in ``parent`` that goes when the block ends; first remove those that killed runs left there.
 
     Parameters
     ----------
     parent : Path
-    rescue : callable
+    rescue : callable, optional
         Called as ``rescue(folder)`` with each folder of a killed run before it is removed.
 
     Raises
@@ -43,6 +43,11 @@ def work_folder(parent, *, rescue):
         # Windows removes no file that is open.
         lock.close()
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def scratch_folder():
+    """Give a `work_folder` in the system's place for temporary files, for what goes from one program to another."""
+    return work_folder(Path(gettempdir()))
 
 
 def _owned_folder(parent):
@@ -86,5 +91,6 @@ def _remove_unless_alive(folder, rescue):
     with lock:
         if not try_lock(lock):
             return
-        rescue(folder)
+        if rescue is not None:
+            rescue(folder)
     shutil.rmtree(folder, ignore_errors=True)

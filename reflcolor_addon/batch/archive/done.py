@@ -3,7 +3,7 @@
 import time
 from pathlib import Path
 
-from ...errors import OutputError
+from ...files.refusals import unwritable
 from ..plan_document import as_document
 from .fingerprints import digest_of, program_digest
 
@@ -73,7 +73,7 @@ class Done:
         try:
             path.unlink(missing_ok=True)
         except OSError as error:
-            raise OutputError("{file}: cannot be written ({reason})", file=path, reason=error.strerror) from error
+            raise unwritable(path, error) from error
 
     def _output(self, path):
         return [*_state(Path(path)), self._fingerprints.of(path)]

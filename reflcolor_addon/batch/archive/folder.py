@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...errors import OutputError
 from ...files.atomic import written_atomically
 from ...files.locks import try_lock
+from ...files.refusals import unwritable
 from ...report.archive import ITEMS, REPORTS, STATE
 from ...report.report import REPORT_OPTION
 from ..plan import PREVIEW, REPORT, Output
@@ -78,7 +78,7 @@ class BatchFolder:
         try:
             file = path.open("ab")
         except OSError as error:
-            raise OutputError("{file}: cannot be written ({reason})", file=path, reason=error.strerror) from error
+            raise unwritable(path, error) from error
         with file:
             # On file systems without locks, other batches cannot be kept out.
             yield try_lock(file) is not False
@@ -101,5 +101,4 @@ def _make(folder):
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        reason = error.strerror or error
-        raise OutputError("{folder}: the folder cannot be made ({reason})", folder=folder, reason=reason) from error
+        raise unwritable(folder, error) from error

@@ -86,11 +86,6 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
     start = time.time()
     with ExitStack() as claims:
         context.work(tasks, finished, {"color": "Colorized", "render": "Rendered"}[stage], begin)
-    for state in (piece.state for piece in states.values()):
-        if state.outcome == FAILED:
-            context.session.warnings.append(
-                Message("{name}: {problem}", name=state.item.name, problem=_bare(state.error))
-            )
 
 
 @dataclass(eq=False)

@@ -1,0 +1,41 @@
+"""What the operating system refuses about a file, as an error that says what to do."""
+
+import errno
+
+from ..errors import OutputError, ReflcolorError
+from ..messages import Message
+
+_NO_ROOM = Message("make room on the disk, or choose another")
+_NO_RIGHT = Message("choose a folder that you may write to")
+_TO_WRITE = {
+    errno.ENAMETOOLONG: Message("choose a shorter name"),
+    errno.ENOSPC: _NO_ROOM,
+    getattr(errno, "EDQUOT", errno.ENOSPC): _NO_ROOM,
+    errno.EACCES: _NO_RIGHT,
+    errno.EPERM: _NO_RIGHT,
+    errno.EROFS: _NO_RIGHT,
+}
+_NO_RIGHT_TO_READ = Message("ask its owner for the right to read it")
+_TO_READ = {
+    errno.ENAMETOOLONG: Message("no file has so long a name; check how it is spelled"),
+    errno.ELOOP: Message("its links lead in a circle; name the file itself"),
+    errno.ENOTDIR: Message("a part of its path is no folder; check how it is spelled"),
+    errno.EACCES: _NO_RIGHT_TO_READ,
+    errno.EPERM: _NO_RIGHT_TO_READ,
+}
+
+
+def unwritable(path, error):
+    """Return the OutputError for an OSError, or a ValueError about the name, met while a file was written."""
+    way = _TO_WRITE.get(getattr(error, "errno", None), Message("choose another folder"))
+    return OutputError("{file}: cannot be written ({reason}); {way}", file=path, reason=_reason(error), way=way)
+
+
+def unreadable(path, error, kind=ReflcolorError):
+    """Return the error of a kind for an OSError, or a ValueError about the name, met while a file was read."""
+    way = _TO_READ.get(getattr(error, "errno", None), Message("copy it to another folder, and name the copy"))
+    return kind("{file}: cannot be read ({reason}); {way}", file=path, reason=_reason(error), way=way)
+
+
+def _reason(error):
+    return getattr(error, "strerror", None) or error
