@@ -2,6 +2,7 @@
 
     python -m benchmarks.reading                              PTX beside numpy.loadtxt, E57 beside pye57
     python -m benchmarks.reading --growth [MEGAPIXELS ...]    E57 from 1 to 40 megapixels
+    python -m benchmarks.reading --before CHECKOUT            E57 beside an earlier version, checked out elsewhere
 
 Seconds are of the processor, medians. E57 is read by a child process; its seconds are told apart, since a plain reader
 has none. Growth is that of seconds and memory: of reading, and of reading, colorizing from 200 seeds and saving as PLY,
@@ -13,6 +14,7 @@ import json
 import multiprocessing
 import resource
 import statistics
+import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
 
@@ -98,6 +100,37 @@ def beside_pye57(rounds):
         row(f"{rows} x {columns}", f"{ours:.2f}", f"{child:.2f}", f"{theirs:.2f}", f"{ours / theirs:.2f}")
 
 
+READ_TWICE = """
+import os, sys
+sys.path.insert(0, sys.argv[1])
+from reflcolor_addon import read_scans
+read_scans(sys.argv[2])
+before = os.times()
+read_scans(sys.argv[2])
+print(sum(os.times()[:4]) - sum(before[:4]))
+"""
+
+
+def beside_before(checkout, rounds):
+    """E57 read by an earlier version and by this one, children included; processes of their own that take turns."""
+    head("E57, seconds of the processor", "pixels", "before", "now", "now, at most", "allowed: before + 10 % + 0.3")
+    for rows, columns in SIZES:
+        path = scan_file(rows, columns, ".e57")
+        found = {checkout: [], ROOT: []}
+        for _ in range(rounds):
+            for root, seconds in found.items():
+                line = [sys.executable, "-P", "-c", READ_TWICE, str(root), str(path)]
+                seconds.append(float(subprocess.run(line, check=True, capture_output=True, text=True).stdout))
+        before, now = map(statistics.median, found.values())
+        row(
+            f"{rows} x {columns}",
+            f"{before:.2f}",
+            f"{now:.2f}",
+            f"{max(found[ROOT]):.2f}",
+            f"{before * 1.1 + 0.3:.2f}",
+        )
+
+
 def job(path):
     """The arguments of a run that reads, colorizes and saves."""
     seeds, side = FOLDER / f"{path.stem}.seeds.json", int(path.stem.rpartition("x")[2])
@@ -138,11 +171,14 @@ def growth(megapixels, rounds):
 def main():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.reading", description=__doc__.partition("\n")[0])
     parser.add_argument("--growth", metavar="MEGAPIXELS", type=float, nargs="*", help=f"by default {GROWTH}")
+    parser.add_argument("--before", metavar="CHECKOUT", help="an earlier version")
     parser.add_argument("--one", metavar="FILE", help="read one file, for the growth")
     parser.add_argument("--rounds", type=int, default=5, help="runs per figure (5)")
     options = parser.parse_args()
     if options.one:
         read_scans(options.one)
+    elif options.before:
+        beside_before(options.before, options.rounds)
     elif options.growth is not None:
         growth(options.growth or GROWTH, options.rounds)
     else:
