@@ -67,13 +67,15 @@ def test_nearly_all_points_are_in_the_picture_and_fill_it(points, aspect):
 
 @settings(max_examples=40)
 @given(points=scanned_points(), size=st.tuples(st.integers(200, 2000), st.integers(200, 2000)), data=st.data())
-def test_nearly_all_points_are_in_what_a_sidebar_leaves_of_a_region_and_fill_it(points, size, data):
-    covered = data.draw(st.integers(0, size[0] - 100))
-    view = frame_in_region(points, SCANNER, size=size, covered=covered, focal_mm=data.draw(st.floats(20, 100)))
+def test_nearly_all_points_are_between_the_bars_of_a_region_and_fill_it(points, size, data):
+    right = data.draw(st.integers(0, size[0] - 100))
+    left = data.draw(st.integers(0, size[0] - 100 - right))
+    focal_mm = data.draw(st.floats(20, 100))
+    view = frame_in_region(points, SCANNER, size=size, covered=(left, right), focal_mm=focal_mm)
     seen = seen_from(view, points)
-    width, height, free = np.array([*size, size[0] - covered]) / max(size)
-    assert nearly_all_inside(seen, 2 * free - width, height, left=-width)
-    assert (extent(seen) / [2 * free, 2 * height]).max() > 0.9
+    width, height, left, right = np.array([*size, left, right]) / max(size)
+    assert nearly_all_inside(seen, width - 2 * right, height, left=2 * left - width)
+    assert (extent(seen) / [2 * (width - left - right), 2 * height]).max() > 0.9
 
 
 def test_what_is_very_far_is_shown_too():
@@ -141,7 +143,7 @@ def test_a_scan_of_hardly_a_point_has_a_view_too(count):
     points = SCANNER + np.array([[3.0, 1, 0], [3, 1, 0.1]])[:count]
     views = [
         frame(points, SCANNER, aspect=ASPECT),
-        frame_in_region(points, SCANNER, size=(800, 600), covered=200, focal_mm=50),
+        frame_in_region(points, SCANNER, size=(800, 600), covered=(40, 200), focal_mm=50),
     ]
     for view in views:
         assert np.isfinite([*view.position, *view.target, view.fov_deg]).all() and view.distance > 0.05
@@ -154,15 +156,16 @@ def test_points_are_brought_to_the_world_in_doubles():
 
 
 @pytest.mark.parametrize("size", [(1000, 700), (600, 900), (1700, 400)])
-@pytest.mark.parametrize("covered", [0, 220])
+@pytest.mark.parametrize("covered", [(0, 0), (0, 220), (60, 220)])
 @pytest.mark.parametrize("aspect", [0.5, 1.0, 2.2])
-def test_a_cameras_picture_is_beside_the_sidebar(size, covered, aspect):
+def test_a_cameras_picture_is_between_toolbar_and_sidebar(size, covered, aspect):
     """With Blender's own formulas, as its documentation has them, for where the frame of a camera is in a region."""
     zoom, (x, y) = camera_in_region(size, covered, aspect)
     magnified = (zoom / 50 + np.sqrt(2)) ** 2 / 4
     longer = magnified * max(size)
     width, height = (longer, longer / aspect) if aspect >= 1 else (longer * aspect, longer)
     center = size[0] / 2 - 2 * x * magnified * size[0]
-    assert center - width / 2 >= 0 and center + width / 2 <= size[0] - covered and height <= size[1] and y == 0
+    left, right = covered
+    assert center - width / 2 >= left and center + width / 2 <= size[0] - right and height <= size[1] and y == 0
     # And as large as it can be, but for what headers cover.
-    assert max(width / (size[0] - covered), height / size[1]) == pytest.approx(0.88)
+    assert max(width / (size[0] - left - right), height / size[1]) == pytest.approx(0.88)

@@ -13,7 +13,7 @@ from .picture_material import give_look
 from .polls import closed_mesh, light_mesh
 from .scan_object import is_joined
 from .shown_surface import add_surface, has_surface, remove_surface, switch_surface
-from .viewpoint import covered_by_sidebar, view_of
+from .viewpoint import covered_at_edges, view_of
 
 # Custom properties of objects: added for a picture; hidden in pictures, but not by the user.
 _ADDED, _LEFT_OUT = "reflcolor_for_render", "reflcolor_left_out"
@@ -110,7 +110,7 @@ def look_through_camera(context):
     eye, shown = space.region_3d, context.scene.render
     eye.view_perspective = "CAMERA"
     eye.view_camera_zoom, eye.view_camera_offset = camera_in_region(
-        (region.width, region.height), covered_by_sidebar(context, area), shown.resolution_x / shown.resolution_y
+        (region.width, region.height), covered_at_edges(context, area), shown.resolution_x / shown.resolution_y
     )
     if space.local_view is not None:
         for obj in context.scene.objects:

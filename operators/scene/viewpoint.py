@@ -86,7 +86,7 @@ def look_from_scanner(context, objects, area):
     view = frame_in_region(
         *_points_and_scanners(objects),
         size=(region.width, region.height),
-        covered=covered_by_sidebar(context, area),
+        covered=covered_at_edges(context, area),
         focal_mm=space.lens,
     )
     eye = space.region_3d
@@ -96,11 +96,14 @@ def look_from_scanner(context, objects, area):
     eye.view_location = view.target
 
 
-def covered_by_sidebar(context, area):
-    """Return how many pixels at the right of a 3D View its sidebar lies over."""
-    sidebar = next(region for region in area.regions if region.type == "UI")
-    overlaps = area.spaces.active.show_region_ui and context.preferences.system.use_region_overlap
-    return sidebar.width if overlaps else 0
+def covered_at_edges(context, area):
+    """Return how many pixels at the left and at the right of a 3D View its toolbar and its sidebar lie over."""
+    if not context.preferences.system.use_region_overlap:
+        return 0, 0
+    space = area.spaces.active
+    shown = {"TOOLS": space.show_region_toolbar, "UI": space.show_region_ui}
+    widths = {region.type: region.width for region in area.regions if shown.get(region.type)}
+    return widths.get("TOOLS", 0), widths.get("UI", 0)
 
 
 def _points_and_scanners(objects):

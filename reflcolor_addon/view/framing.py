@@ -123,8 +123,8 @@ def frame_in_region(points, scanners, *, size, covered, focal_mm):
         As in `frame`.
     size : (width, height) of int
         Pixels of the region.
-    covered : int
-        Pixels at its right that a sidebar hides: the scan is shown in what is left.
+    covered : (left, right) of int
+        Pixels at its edges that a toolbar and a sidebar hide: the scan is shown in between.
     focal_mm : float
         The 3D View's focal length.
 
@@ -135,16 +135,17 @@ def frame_in_region(points, scanners, *, size, covered, focal_mm):
     """
     points = _sample(points)
     width, height = (max(1, length) for length in size)
-    free = max(1, width - covered)
+    left, right = covered
+    free = max(1, width - left - right)
     view = frame(points, scanners, aspect=free / height)
     # The focal length is that of the wider side.
     pixel = _REGION_SENSOR_MM / focal_mm / max(width, height)
     forward = (view.target - view.position) / view.distance
-    forward = forward + _across(forward)[0] * (width - free) / 2 * pixel
+    forward = forward + _across(forward)[0] * (right - left) / 2 * pixel
     forward = forward / np.linalg.norm(forward)
     across, offsets = np.stack(_across(forward)), points - view.position
     depth, seen = offsets @ forward, offsets @ across.T
-    middle, half = np.array([free - width, 0]) / 2 * pixel, np.array([free, height]) / 2 * pixel / _MARGIN
+    middle, half = np.array([left - right, 0]) / 2 * pixel, np.array([free, height]) / 2 * pixel / _MARGIN
     before, after = half - middle, half + middle
     # Moved back by b and aside by s, a camera has in what is free of its picture what is at (x, depth), if
     # -before (depth + b) <= x - s <= after (depth + b). For all points together that is
@@ -160,7 +161,7 @@ def frame_in_region(points, scanners, *, size, covered, focal_mm):
 
 
 def camera_in_region(size, covered, aspect):
-    """Return how a 3D View that looks through a camera has the whole picture beside its sidebar.
+    """Return how a 3D View that looks through a camera has the whole picture beside its toolbar and sidebar.
 
     Blender magnifies the view by z = (zoom / 50 + sqrt 2)^2 / 4: the longer side of the picture takes z of the longer
     side of the region. Moved by an offset, the picture's middle is 2 z offset of the region's width to the left.
@@ -169,8 +170,8 @@ def camera_in_region(size, covered, aspect):
     ----------
     size : (width, height) of int
         Pixels of the region.
-    covered : int
-        Pixels at its right that a sidebar hides.
+    covered : (left, right) of int
+        Pixels at its edges that a toolbar and a sidebar hide.
     aspect : float
         Width of the camera's picture over its height.
 
@@ -183,10 +184,11 @@ def camera_in_region(size, covered, aspect):
     """
     width, height = (max(1, length) for length in size)
     across, down = (1.0, 1 / aspect) if aspect >= 1 else (aspect, 1.0)
-    free = max(1, width - covered)
+    left, right = covered
+    free = max(1, width - left - right)
     magnified = min(free / across, height / down) * _CAMERA_SHARE / max(width, height)
     zoom = 50 * (2 * np.sqrt(magnified) - np.sqrt(2))
-    return float(zoom), (covered / (4 * width * magnified), 0.0)
+    return float(zoom), ((right - left) / (4 * width * magnified), 0.0)
 
 
 def _from_outside(points, heading, right, aspect):
