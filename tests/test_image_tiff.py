@@ -167,6 +167,24 @@ def test_colors_that_were_multiplied_by_their_alpha_are_divided(tmp_path, kind):
     assert np.abs(read_image(path) - expected).max() <= (3 if kind == "u1" else 1)
 
 
+@pytest.mark.parametrize("kind", ["i8", "u8"])
+def test_multiplied_colors_stay_within_the_greatest_number(tmp_path, kind):
+    most = np.iinfo(kind).max
+    path = written(tmp_path, np.full((*SHAPE, 4), most, kind), photometric="rgb", extrasamples=["assocalpha"])
+    measured, opaque = read_measured(path)
+    assert np.abs(measured / most - 1).max() < 1e-9
+    assert opaque.all()
+
+
+def test_bits_in_reversed_order_are_refused(tmp_path):
+    path = tmp_path / "a.tif"
+    tags = {258: [8], 259: [1], 262: [1], 266: [2], 277: [1]}
+    path.write_bytes(tiff([bytes(range(12))], 3, 4, tags))
+    assert "bits in reversed order" in failure(path, read_image)
+    path.write_bytes(tiff([bytes(range(12))], 3, 4, tags | {266: [1]}))
+    assert np.array_equal(read_measured(path)[0].ravel(), np.arange(12))
+
+
 def test_alpha_that_stands_alone_changes_no_color(tmp_path):
     photo = RNG.integers(0, 256, (*SHAPE, 3), np.uint8)
     alpha = RNG.integers(1, 256, SHAPE, np.uint8)

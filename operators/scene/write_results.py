@@ -19,8 +19,6 @@ from .scan_object import COLORIZED
 from .seed_list import append_seeds
 from .usd import write_usd
 
-_REFUSED = "{file}: cannot be written ({reason}); choose another folder"
-
 
 def write_results(jobs, paths, render_path, picture, progress):
     """Write colorized scans to every path, in the format of its suffix, and render a picture of them.
@@ -93,11 +91,13 @@ def _add_light_object(context, job):
 def _write(path, write):
     with written_atomically(path) as temporary:
         if fault := path_fault(temporary):
-            raise OutputError(_REFUSED, file=path, reason=fault)
+            raise OutputError("{file}: cannot be written ({reason}); choose another folder", file=path, reason=fault)
         try:
             write(temporary)
         except RuntimeError as error:
-            raise OutputError(_REFUSED, file=path, reason=blender_reason(error)) from error
+            raise OutputError(
+                "{file}: cannot be written ({reason}); choose another folder", file=path, reason=blender_reason(error)
+            ) from error
 
 
 def _write_blend(path):

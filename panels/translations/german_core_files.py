@@ -147,6 +147,8 @@ _TIFF = {
     ),
     "a reduced image as its first one, as raw photos have": "ein verkleinertes erstes Bild, wie es Rohfotos haben",
     "a developed photo": "ein entwickeltes Foto",
+    "bits in reversed order (fill order 2)": "Bits in umgekehrter Reihenfolge (fill order 2)",
+    "the usual order": "die übliche Reihenfolge",
     "samples of several kinds": "Werte verschiedener Art",
     "the same bits and format for all": "gleiche Bits und gleiches Format für alle",
     "the compression {number}": "die Kompression {number}",

@@ -25,17 +25,17 @@ _TO_READ = {
 }
 
 
-def unwritable(path, error):
+def unwritable(path, failure):
     """Return the OutputError for an OSError, or a ValueError about the name, met while a file was written."""
-    way = _TO_WRITE.get(getattr(error, "errno", None), Message("choose another folder"))
-    return OutputError("{file}: cannot be written ({reason}); {way}", file=path, reason=_reason(error), way=way)
+    way = _TO_WRITE.get(getattr(failure, "errno", None), Message("choose another folder"))
+    return OutputError("{file}: cannot be written ({reason}); {way}", file=path, reason=_reason(failure), way=way)
 
 
-def unreadable(path, error, kind=ReflcolorError):
-    """Return the error of a kind for an OSError, or a ValueError about the name, met while a file was read."""
-    way = _TO_READ.get(getattr(error, "errno", None), Message("copy it to another folder, and name the copy"))
-    return kind("{file}: cannot be read ({reason}); {way}", file=path, reason=_reason(error), way=way)
+def unreadable(path, failure, error=ReflcolorError):
+    """Return an error of this type for an OSError, or a ValueError about the name, met while a file was read."""
+    way = _TO_READ.get(getattr(failure, "errno", None), Message("copy it to another folder, and name the copy"))
+    return error("{file}: cannot be read ({reason}); {way}", file=path, reason=_reason(failure), way=way)
 
 
-def _reason(error):
-    return getattr(error, "strerror", None) or error
+def _reason(failure):
+    return getattr(failure, "strerror", None) or failure

@@ -112,6 +112,8 @@ def _layout(tags, file_size, name):
         refuse(Message("a reduced image as its first one, as raw photos have"), Message("a developed photo"))
     if not 1 <= samples <= 64 or len(depths) != 1 or len(formats) != 1:
         refuse(Message("samples of several kinds"), Message("the same bits and format for all"))
+    if tags.get(266, (1,))[0] != 1:
+        refuse(Message("bits in reversed order (fill order 2)"), Message("the usual order"))
     if compression not in _COMPRESSIONS:
         known = ", ".join(dict.fromkeys(_COMPRESSIONS.values()))
         refuse(Message("the compression {number}", number=compression), Message("one of {choices}", choices=known))
@@ -225,6 +227,9 @@ def _divided(values, alpha):
     """Colors that were multiplied by the opacity, as they were before; 0 where nothing is seen."""
     whole = values.dtype.kind in "ui"
     most = float(np.iinfo(values.dtype).max) if whole else 1.0
+    if whole and most > np.iinfo(values.dtype).max:
+        # The greatest whole number of 64 bits is no double.
+        most = np.nextafter(most, 0)
     with np.errstate(divide="ignore", invalid="ignore"):
         single = np.where(alpha[..., None] > 0, values * (most / alpha[..., None].astype(np.float64)), 0)
     return np.clip(np.rint(single), 0, most).astype(values.dtype) if whole else single.astype(values.dtype)
