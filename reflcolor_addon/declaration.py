@@ -140,7 +140,8 @@ class Setting:
         if self.kind is bool:
             return isinstance(value, bool)
         number = isinstance(value, Integral if self.kind is int else Real) and not isinstance(value, bool)
-        return number and math.isfinite(value) and self.low <= value <= self.high
+        # Compared first: a whole number of hundreds of digits cannot be asked whether it is finite.
+        return number and self.low <= value <= self.high and math.isfinite(value)
 
 
 def setting(default, **known):

@@ -12,6 +12,8 @@ from reflcolor_addon import Seeds
 from reflcolor_addon.batch.archive.check import check_manifest
 from reflcolor_addon.batch.archive.draft import draft
 from reflcolor_addon.batch.archive.manifest_file import load_manifest
+from reflcolor_addon.batch.archive.pairs import read_pairs
+from reflcolor_addon.errors import UsageError
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
 
@@ -155,11 +157,20 @@ def test_everything_wrong_is_named_at_once_with_its_line(folder):
         (HEAD + 'scans = "hall_0.ptx"\n', "has neither seeds nor photos"),
         ('format = "reflcolor-batch"\nversion = 1\n', "output: is missing"),
         (HEAD + 'pairs = "no.csv"\n', "there is no file no.csv"),
+        (HEAD.replace('"colored"', '"a\\u0000b"'), "holds a null character"),
+        (HEAD + f"faces = {'9' * 5000}\n", "is not TOML"),
     ],
 )
 def test_what_cannot_be_worked_on(folder, text, expected):
     _, faults = read(folder, text)
     assert any(expected in fault for fault in faults), faults
+
+
+def test_a_table_of_pairs_that_is_none_is_refused_in_one_line(tmp_path):
+    (tmp_path / "pairs.csv").write_text(f'scan,photo,shows\nhall,"{"x" * 200_000}",yes\n')
+    with pytest.raises(UsageError, match=r"pairs\.csv: line 2: is no table") as caught:
+        read_pairs(tmp_path / "pairs.csv")
+    assert str(caught.value).isprintable()
 
 
 def test_a_file_that_is_no_text(folder):

@@ -185,6 +185,13 @@ def test_bits_in_reversed_order_are_refused(tmp_path):
     assert np.array_equal(read_measured(path)[0].ravel(), np.arange(12))
 
 
+def test_tiles_without_pixels_are_damage(tmp_path):
+    path = tmp_path / "a.tif"
+    tags = {258: [8], 259: [1], 262: [1], 277: [1], 322: [0], 323: [16], 324: [8], 325: [12]}
+    path.write_bytes(tiff([bytes(12)], 3, 4, tags))
+    assert "its tags are damaged" in failure(path, read_image)
+
+
 def test_alpha_that_stands_alone_changes_no_color(tmp_path):
     photo = RNG.integers(0, 256, (*SHAPE, 3), np.uint8)
     alpha = RNG.integers(1, 256, SHAPE, np.uint8)

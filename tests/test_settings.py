@@ -53,6 +53,11 @@ def test_a_value_out_of_range_is_refused_in_one_line_that_names_it(change):
     assert isinstance(raised.value, ReflcolorError)
 
 
+def test_a_number_of_hundreds_of_digits_is_out_of_range():
+    with pytest.raises(SettingsError, match="alpha"):
+        Settings(alpha=10**400)
+
+
 def test_settings_cannot_be_changed_afterwards():
     with pytest.raises(dataclasses.FrozenInstanceError):
         Settings().alpha = 3

@@ -216,9 +216,7 @@ _DESCRIPTIONS = {
     "{version} (this file needs a newer release)": "{version} (diese Datei braucht eine neuere Version)",
     "a text in one line": "ein Text in einer Zeile",
     "two numbers in degrees": "zwei Zahlen in Grad",
-    "two different numbers at most {widest} degrees apart": (
-        "zwei verschiedene Zahlen, höchstens {widest} Grad auseinander"
-    ),
+    "two numbers 0.000001 to {widest} degrees apart": "zwei Zahlen, 0,000001 bis {widest} Grad auseinander",
     "an object with a type": "ein Objekt mit einem Typ",
     "4, 5 or 8 numbers: k1, k2, p1, p2, k3, k4, k5, k6": "4, 5 oder 8 Zahlen: k1, k2, p1, p2, k3, k4, k5, k6",
     "as many numbers as elevation_deg has": "so viele Zahlen, wie elevation_deg hat",

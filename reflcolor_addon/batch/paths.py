@@ -134,6 +134,8 @@ def tracked(paths, written):
 def _same_file(one, other):
     try:
         return one.samefile(other)
+    except ValueError:  # a null character, which no file's name has
+        return one == other
     except OSError:
         return os.path.normcase(os.path.realpath(one)) == os.path.normcase(os.path.realpath(other))
 
@@ -141,6 +143,6 @@ def _same_file(one, other):
 def _identity(path):
     try:
         found = path.stat()
-    except OSError:
+    except (OSError, ValueError):
         return None
     return found.st_ino, found.st_mtime_ns

@@ -147,6 +147,8 @@ def _layout(tags, file_size, name):
     elif tags.get(274, (1,))[0] != 1:
         refuse(Message("a palette, YCbCr or JPEG that is turned"), Message("an upright one"))
     tile = (tags[322][0], tags[323][0]) if 322 in tags else None
+    if tile and not all(tile):
+        raise ValueError("no pixels")
     rows = max(1, min(tags.get(278, (height,))[0], height))
     planar = samples > 1 and tags.get(284, (1,))[0] == 2
     places, sizes = tags[324 if tile else 273], tags[325 if tile else 279]

@@ -29,7 +29,7 @@ _VALUES = (
     *(float("inf"), "", "x", "..", "/", "a" * 5000, "\0", "\ud800", "../../a.png", [], {}, [[]], [0] * 3, {"a": 1}),
 )
 _TOKEN = re.compile(rb"[-+]?[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?")
-_TEXTS = {"E57", "PTX", "PCD", "PLY", "text"}
+_TEXTS = {"E57", "PTX", "PCD", "PLY", "text", "manifest", "pairs"}
 _JSON = {"image pair", "seeds", "report"}
 
 

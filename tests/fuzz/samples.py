@@ -7,6 +7,7 @@ from io import BytesIO
 import cv2
 import numpy as np
 import tifffile
+from e57_samples import e57_with_photo
 from e57_samples import write_e57 as write_raw_e57
 from sample_scans import intensity_of, ptx_text, room_points
 from small_scans import random_scan
@@ -14,7 +15,11 @@ from test_image_files import exr
 from test_readers_formats import lzf, packed_rgb
 
 from reflcolor_addon import Seeds, Settings, colorize, read_scans
+from reflcolor_addon.batch.archive.check import check_manifest
+from reflcolor_addon.batch.archive.manifest_file import load_manifest
+from reflcolor_addon.batch.archive.pairs import read_pairs
 from reflcolor_addon.files.images import read_image, read_measured
+from reflcolor_addon.files.photo_files import photos_of
 from reflcolor_addon.files.readers import ReadOptions
 from reflcolor_addon.files.readers.las import imported_laspy
 from reflcolor_addon.files.writers import write_e57, write_ply, write_ptx
@@ -66,7 +71,10 @@ def samples(folder):
         "EXR": [Sample("a.exr", data, read) for data in _exr() for read in (_photo, read_measured)],
         "seeds": [Sample("a.json", data, Seeds.load) for data in _seeds()],
         "report": [Sample("a.json", data, _verify) for data in _reports(folder)],
-        "E57": [Sample("a.e57", data, read_scans) for data in _e57(folder)],
+        "manifest": [Sample("a.toml", data, _manifest) for data in _manifests(folder)],
+        "pairs": [Sample("pairs.csv", data, read_pairs) for data in _tables_of_pairs()],
+        "E57": [Sample("a.e57", data, read_scans) for data in _e57(folder)]
+        + [Sample("a.e57", data, read) for data in _e57_with_photo(folder) for read in (read_scans, photos_of)],
     }
 
 
@@ -82,6 +90,35 @@ def _verify(path):
     report = read_report(path)
     outline(report)
     return verify_outputs(report, path)
+
+
+def _manifest(path):
+    faults = []
+    manifest = load_manifest(path, faults.append)
+    if not faults:
+        check_manifest(manifest, None, faults.append)
+    if faults:
+        raise max(faults, key=lambda fault: len(str(fault)))
+
+
+def _manifests(folder):
+    Seeds([1, 4], [2, 5], [[200, 80, 40], [20, 80, 220]]).save(folder / "sample.seeds.json")
+    head = 'format = "reflcolor-batch"\nversion = 1\noutput = "colored"\nwrite = ["png", "ply"]\n'
+    one = '[[scan]]\nfile = "sample.ptx"\nseeds = "sample.seeds.json"\nname = "yard"\n'
+    yield (head + one).encode()
+    yield f'{head}photos = ["*.png"]\nscans = ["sample.ptx"]\n[settings]\nalpha = 3.0\nbeta = 1\n'.encode()
+
+
+def _tables_of_pairs():
+    rows = (("scan", "photo", "shows"), ("yard", "rgb.png", "yes"), ("yard", "ir.png", "no"), ("hall", "a, b.jpg", ""))
+    for between in ",;":
+        lines = (between.join(f'"{cell}"' if "," in cell else cell for cell in row) for row in rows)
+        yield "\n".join(lines).encode()
+
+
+def _e57_with_photo(folder):
+    e57_with_photo(folder / "sample.e57", np.random.default_rng(6).integers(0, 256, (12, 17, 3), np.uint8))
+    yield (folder / "sample.e57").read_bytes()
 
 
 def _e57(folder):

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from fuzz.mutations import mutated
 from fuzz.samples import samples
-from reflcolor_addon.errors import ReflcolorError
+from reflcolor_addon.errors import ReflcolorError, UsageError
 from reflcolor_addon.messages import LONGEST_LINE
 
 SLOWEST_S = 5.0
@@ -21,8 +21,8 @@ MOST_BYTES = 300 << 20
 """Beyond what the file honestly needs, which for files of a few kilobytes is nothing beside this."""
 
 SHARES = {
-    "PTX": 13,
-    "PCD": 9,
+    "PTX": 12,
+    "PCD": 8,
     "PLY": 9,
     "LAS": 4,
     "LAZ": 3,
@@ -33,7 +33,7 @@ SHARES = {
     "JPEG": 3,
     "WebP": 2,
 }
-SHARES |= {"BMP": 2, "TIFF": 8, "EXR": 5, "seeds": 4, "report": 3, "E57": 11}
+SHARES |= {"BMP": 2, "TIFF": 8, "EXR": 5, "seeds": 4, "report": 3, "manifest": 1, "pairs": 1, "E57": 11}
 """Of a hundred files, how many are of a kind."""
 
 
@@ -82,7 +82,7 @@ class Trials:
             try:
                 sample.read(path)
                 state = "read"
-            except ReflcolorError as error:
+            except (ReflcolorError, UsageError) as error:
                 state = _fault_of(str(error)) or "refused"
             except Exception as error:
                 trace = error.__traceback__

@@ -75,9 +75,16 @@ def _check_outputs(manifest, refuse):
                     path=path,
                 )
             )
-    existing = next(folder for folder in (root, *root.absolute().parents) if folder.exists())
+    existing = next(folder for folder in (root, *root.absolute().parents) if _is_there(folder))
     for fault in output_faults([("output", existing / ".reflcolor-try")], []):
         refuse(UsageError("{file}: {problem}", file=manifest.path, problem=fault.message))
+
+
+def _is_there(folder):
+    try:
+        return folder.exists()
+    except OSError:  # a name that is too long
+        return False
 
 
 def _attempt(wrong, act, *arguments):

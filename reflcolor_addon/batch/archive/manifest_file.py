@@ -55,7 +55,7 @@ def load_manifest(path, refuse):
         line = error.object.count(b"\n", 0, error.start) + 1
         refuse(UsageError("{file}: line {line}: is not UTF-8; save it as UTF-8", file=path, line=line))
         return None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # not TOML, or numbers of thousands of digits
         refuse(UsageError("{file}: is not TOML: {reason}", file=path, reason=str(error)))
         return None
     return _Reader(path, document, TomlLines(text), refuse).manifest()

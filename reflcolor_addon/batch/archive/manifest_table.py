@@ -39,6 +39,9 @@ class ManifestTable:
             names = {str: "a text in quotes", bool: "true or false", int: "a whole number", dict: "a table"}
             self.refuse(key, "{key}: expected {expected}, found {found!r}", key=key, expected=names[kind], found=value)
             return default
+        if kind is str and "\0" in value:
+            self.refuse(key, "{key}: holds a null character, which no name may hold", key=key)
+            return default
         return value
 
     def texts(self, key):

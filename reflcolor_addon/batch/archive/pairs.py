@@ -41,7 +41,7 @@ def read_pairs(path):
     delimiter = ";" if ";" in text.partition("\n")[0] else ","
     table = csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter)
     known = {}
-    for row in table:
+    for row in _rows(table, path):
         if any(row.get(name) is None for name in COLUMNS[:3]):
             raise UsageError(
                 "{file}: line {line}: expected the columns {columns}",
@@ -53,6 +53,18 @@ def read_pairs(path):
         if shows in (YES, NO):
             known[row["scan"].strip(), row["photo"].strip()] = shows == YES
     return known
+
+
+def _rows(table, path):
+    try:
+        yield from table
+    except csv.Error as error:
+        raise UsageError(
+            "{file}: line {line}: is no table ({reason}); write it anew, or leave it out",
+            file=path,
+            line=table.line_num + 1,
+            reason=error,
+        ) from error
 
 
 def write_pairs(path, rows):

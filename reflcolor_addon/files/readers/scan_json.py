@@ -28,6 +28,7 @@ _LONGEST_QUOTE = 60
 _SCALES = (1e-12, 1e6)
 _CAMERA = {"fx": (1e-3, 1e7), "fy": (1e-3, 1e7), "cx": (-1e7, 1e7), "cy": (-1e7, 1e7)}
 _BENT = 1e6
+_NARROWEST_DEG = 1e-6
 _MOST_BEAMS = 65536
 _REQUIRED = ("range", "reflectance", "model")
 
@@ -240,8 +241,8 @@ class _Check:
         if not isinstance(value, list) or len(value) != 2:
             self.fail(key, Message("two numbers in degrees"), value)
         first, last = (self.number(key, end, low, high) for end in value)
-        if not 0 < abs(last - first) <= widest:
-            self.fail(key, Message("two different numbers at most {widest} degrees apart", widest=widest), value)
+        if not _NARROWEST_DEG <= abs(last - first) <= widest:
+            self.fail(key, Message("two numbers 0.000001 to {widest} degrees apart", widest=widest), value)
         return first, last
 
     def model(self, value):
