@@ -27,6 +27,13 @@ def make_archive(folder, count=3, shape=(12, 16)):
     return path
 
 
+def damage_points(path):
+    """Make the first line of points of a PTX something else, which its header does not tell."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    lines[10] = "no point"
+    path.write_text("\n".join(lines), encoding="utf-8")
+
+
 def outputs_of(folder):
     """The bytes of everything that a batch made for its user, by path; reports without their times."""
     found = {}

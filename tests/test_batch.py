@@ -5,7 +5,7 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 
 import numpy as np
-from archives import HEAD, table_of
+from archives import HEAD, damage_points, table_of
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds, Settings, read_scans
@@ -14,7 +14,7 @@ from reflcolor_addon.batch.plan import IMAGE, Output, Plan
 from reflcolor_addon.batch.plan_document import as_document, from_document
 from reflcolor_addon.batch.read import safe_label
 from reflcolor_addon.cli.main import main
-from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.images import write_jpeg, write_png
 from reflcolor_addon.files.readers.options import ReadOptions
 from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.report.provenance import read_report
@@ -57,7 +57,7 @@ def test_one_scan_that_fails_costs_no_other(archive, batch):
 
 
 def test_without_keep_going_nothing_more_is_begun(archive, batch):
-    (archive / "hall_0.ptx").write_text("no scan\n")
+    damage_points(archive / "hall_0.ptx")
     status, out, _ = batch()
     assert status == 1 and "2 not begun" in out
     assert not (archive / "colored" / "hall_1.png").exists()
@@ -74,6 +74,42 @@ def test_check_alone_touches_nothing(archive, batch):
     status, out, _ = batch("--check")
     assert status == 0 and "scans: 3" in out and "memory" in out
     assert not (archive / "colored").exists()
+
+
+def test_a_scan_and_a_photo_that_cannot_be_used_are_named_before_anything_is_begun(archive, batch):
+    (archive / "hall_1.ptx").write_text("no scan\n")
+    write_jpeg(archive / "a.jpg", np.full((64, 64, 3), 90, np.uint8))
+    data = (archive / "a.jpg").read_bytes()
+    (archive / "a.jpg").write_bytes(data[: len(data) // 2])
+    (archive / "b.png").write_bytes(b"no photo")
+    names = (archive / "batch.toml").read_text(encoding="utf-8")
+    text = names.replace(
+        'output = "colored"\n', 'output = "colored"\nphotos = ["a.jpg", "b.png"]\nscans = "hall_?.ptx"\n'
+    )
+    (archive / "batch.toml").write_text(text.replace('seeds = "hall_0.seeds.json"\n', ""), encoding="utf-8")
+    status, out, err = batch("--check")
+    assert status == 2 and "scans: 3" not in out
+    found = [line.removeprefix("error: batch.toml: ") for line in err.splitlines()]
+    assert found[0].startswith("line 10: hall_1.ptx: line 1: expected the number of columns")
+    assert found[1].startswith("line 4: a.jpg: ") and "damaged" in found[1]
+    assert found[2].startswith("line 4: b.png: is not an image that can be read")
+    assert found[3:] == ["3 things are wrong, see above"]
+    status, out, err = batch()
+    assert status == 2 and "go on without them by --keep-going" in err
+    assert not (archive / "colored").exists()
+
+
+def test_the_estimate_rests_on_the_sizes_in_the_headers(archive, batch):
+    # A scan without returns is a small file.
+    zero = "0 0 0 0\n" * 2_000_000
+    head = "2000\n1000\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"
+    (archive / "hall_0.ptx").write_text(head + zero)
+    assert "scans: 3, about 2.0 megapixels together" in batch("--check")[1]
+
+
+def test_progress_is_told_in_lines_where_there_is_no_terminal(archive, batch):
+    _, out, _ = batch()
+    assert " 30%  Checking hall_1.ptx\n" in out and "100%  Colorized 3 of 3\n" in out
 
 
 def test_progress_for_an_engine_of_a_render_farm(archive, batch):

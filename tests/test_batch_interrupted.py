@@ -1,5 +1,6 @@
 """A batch that is ended, whose workers are killed, whose folder goes, or which meets another batch."""
 
+import csv
 import io
 import os
 import signal
@@ -8,8 +9,9 @@ import time
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
-from archives import make_archive, outputs_of
+from archives import HEAD, make_archive, outputs_of, table_of
 from command_line import process_line, run_process
 
 from reflcolor_addon.batch.archive import color_stage
@@ -17,7 +19,9 @@ from reflcolor_addon.batch.archive.done import Done
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.registrations import Registrations
 from reflcolor_addon.batch.archive.workers import Workers
+from reflcolor_addon.cli.interruption import Interruption
 from reflcolor_addon.errors import OutputError
+from reflcolor_addon.files.images import write_png
 
 COUNT, SHAPE = 4, (60, 90)
 
@@ -121,6 +125,7 @@ def test_a_batch_that_is_ended_goes_on_where_it_was(tmp_path, monkeypatch, undis
     process.communicate(timeout=60)
     if stop == signal.SIGTERM:
         assert process.returncode == 143
+        assert (tmp_path / "colored" / "report.html").is_file()
     finished = {path.name: path.stat().st_mtime_ns for path in done.glob("*.json")}
     again = run_process("batch", "batch.toml", "--jobs", "2", "--resume", cwd=tmp_path)
     assert again.returncode == 0, again.stderr
@@ -129,6 +134,35 @@ def test_a_batch_that_is_ended_goes_on_where_it_was(tmp_path, monkeypatch, undis
     assert not list((tmp_path / "colored").rglob(".reflcolor-*"))
 
     assert outputs_of(tmp_path / "colored") == undisturbed
+
+
+def test_an_interrupted_batch_reports_what_is_done_and_how_to_go_on(archive, batch, monkeypatch):
+    for name in ("a.png", "b.png"):
+        write_png(archive / name, np.full((40, 60, 3), 90 if name == "a.png" else 120, np.uint8))
+    text = HEAD + 'scans = "hall_[01].ptx"\nphotos = ["a.png", "b.png"]\n[[scan]]\nfile = "hall_2.ptx"\n'
+    (archive / "batch.toml").write_text(text + 'seeds = "hall_2.seeds.json"\n', encoding="utf-8")
+    requested, record = [], Done.record
+
+    def record_and_interrupt(*arguments):
+        record(*arguments)
+        requested.append(True)
+
+    monkeypatch.setattr(Done, "record", record_and_interrupt)
+    monkeypatch.setattr(Interruption, "requested", lambda self: bool(requested))
+    status, out, err = batch()
+    assert status == 130 and "hall_0: none of 2 photos" in out
+    assert err.splitlines() == ["error: batch.toml: interrupted; to go on, run the same command with --resume"]
+    with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
+        rows = [(row["scan"], row["photo"], row["shows"]) for row in csv.DictReader(file)]
+    assert rows[:2] == [("hall_0", "a.png", "cannot be tested"), ("hall_0", "b.png", "cannot be tested")]
+    assert {row[0] for row in rows[2:]} == {"hall_1"}
+    assert {row[2] for row in rows[2:]} == {"not tried"}
+    states = {name: row["state"] for name, row in table_of(archive).items()}
+    assert states == {"hall_0": "unshown", "hall_1": "open", "hall_2": "open"}
+    monkeypatch.undo()
+    monkeypatch.chdir(archive)
+    status, out, _ = batch("--resume")
+    assert status == 0 and "1 done, 1 done before" not in out, out
 
 
 def test_an_unwritable_folder_is_named_before_the_work(archive, batch):

@@ -84,7 +84,11 @@ def bytes_of_matching(jobs, photos):
     """
     sizes = [_photo_pixels(photo) for photo in photos]
     # Scans are matched one after the other; the results of each are kept.
-    largest = max(job.opened().valid.size for job in jobs)
+    return bytes_of_pixels(max(job.opened().valid.size for job in jobs), sizes)
+
+
+def bytes_of_pixels(largest, sizes):
+    """The same for a scan of so many pixels, and photos of so many."""
     sought = min(_MATCHING * largest, _MATCHING_MOST) + _MATCHING_ALWAYS * largest
     return _PHOTO * sum(sizes) + max(sought, _DECODING * max(sizes, default=0))
 

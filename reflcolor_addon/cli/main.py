@@ -62,8 +62,8 @@ def _outcome(argv, prog, session, console, interruption):
         return DONE, None
     except SystemExit as end:  # how argparse ends after --help and --version
         return int(end.code or 0), None
-    except Cancelled:
-        return interruption.exit_status, _INTERRUPTED
+    except Cancelled as end:
+        return interruption.exit_status, str(end) or _INTERRUPTED
     except Exception as error:
         line = line_of(error)
         if line is None:

@@ -1,5 +1,6 @@
 """Image files as arrays: photos upright in 8-bit sRGB, measured images with every bit that they have."""
 
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from ..srgb import linear_to_srgb8
 from .atomic import written_atomically
 from .color_profiles import embedded_profile
 from .exr import exr_channels
-from .gate import contents
+from .gate import contents, opened
 from .image_headers import EXPECTED, image_header
 from .native_noise import native_output_aside
 from .tiff import tiff_pixels, upright
@@ -18,7 +19,7 @@ from .tiff import tiff_pixels, upright
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp", ".exr")
 """Image files that can be opened; for file dialogs."""
 
-_LARGEST_FILE = 1 << 32
+_LARGEST_FILE, _START = 1 << 32, 1 << 17
 _DAMAGE = ("Corrupt JPEG data", "Premature end of JPEG", "Invalid SOS parameters", "Inconsistent progression")
 
 
@@ -71,7 +72,36 @@ def image_size(path):
     ImageError
         As `read_image`, as far as it can be known.
     """
-    data, name = _contents(path, None), Path(path).name
+    with opened(path, EXPECTED, error=ImageError, most=_LARGEST_FILE) as file:
+        start = file.read(_START)
+    if start.startswith(b"\xff\xd8"):
+        # Of a JPEG the beginning is enough, unless it holds more about the photo than cameras write.
+        with suppress(ImageError):
+            header = image_header(start, Path(path).name)
+            return header.height, header.width
+    return _size_of(_contents(path, None), Path(path).name)
+
+
+def check_image(path, *, cancelled=None):
+    """Return what `image_size` does, of an image that can be decoded.
+
+    Raises
+    ------
+    ImageError
+        As `read_image`, also where it is damaged or cut short.
+    """
+    data, name = _contents(path, cancelled), Path(path).name
+    if not data.startswith(b"\xff\xd8"):
+        return image_of(data, name).shape[:2]
+    import cv2
+
+    # A JPEG is decoded to an eighth of its size, which takes a fraction of the time and reads all of it.
+    size = _size_of(data, name)
+    _decoded(data, cv2.IMREAD_REDUCED_COLOR_8, name)
+    return size
+
+
+def _size_of(data, name):
     header = image_header(data, name)
     if header is None:
         return next(iter(exr_channels(data, name).values())).shape

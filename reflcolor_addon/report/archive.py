@@ -12,6 +12,7 @@ from ..errors import OutputError, ReflcolorError
 from ..files.atomic import written_atomically
 from ..files.gate import contents
 from ..files.json_files import read_json
+from ..messages import Message
 from ..version import __version__
 from ..view.colormaps import UNKNOWN
 from ..view.preview import GUESS, INFERRED, OBSERVED, TILES
@@ -120,7 +121,7 @@ def _entries(root, session):
     paths = sorted((root / REPORTS).glob("*.json"))
     entries, items = {}, _items(root)
     for number, path in enumerate(paths):
-        session.progress(number / len(paths), path.name)
+        session.progress(number / len(paths), Message("Writing the report: {name}", name=path.stem))
         try:
             entries[path.stem] = _of_report(path, read_report(path))
         except (ReflcolorError, AttributeError, KeyError, TypeError, ValueError) as error:

@@ -1,8 +1,6 @@
-"""Checks a manifest before the work begins, so that all of its errors are reported at once."""
+"""Checks what a manifest says before the work begins, so that all of its errors are reported at once."""
 
 from ...errors import ReflcolorError, UsageError
-from ...files.gate import opened
-from ...files.readers import SCAN_SUFFIXES
 from ...messages import Message
 from ..check import check_has_mesh, load_seeds
 from ..paths import files_of_each, output_faults
@@ -10,7 +8,7 @@ from ..plan import PLACEHOLDER, RENDER
 
 
 def check_manifest(manifest, blender, refuse):
-    """Look at the files that a manifest names, and at where its results go.
+    """Look at the seeds that a manifest names, and at where its results go; `check_files` looks at scans and photos.
 
     Parameters
     ----------
@@ -24,8 +22,6 @@ def check_manifest(manifest, blender, refuse):
         def wrong(problem, item=item):
             refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=item.line, problem=problem))
 
-        for path in item.plan.scans:
-            _attempt(wrong, _check_scan, path)
         for given in filter(None, (item.plan.seeds, item.plan.hand)):
             for path in files_of_each(given, item.name):
                 _attempt(wrong, load_seeds, path, item.plan.photos)
@@ -44,14 +40,6 @@ def _what(outputs):
     if not outputs:
         return "faces"
     return "render" if outputs[0].kind == RENDER else f"write {outputs[0].path.suffix}"
-
-
-def _check_scan(path):
-    if not path.name.lower().endswith(SCAN_SUFFIXES):
-        known = ", ".join(SCAN_SUFFIXES)
-        raise UsageError("{file}: is not a scan, to judge by its name; expected one of {known}", file=path, known=known)
-    with opened(path, "a scan"):
-        pass
 
 
 def _check_outputs(manifest, refuse):

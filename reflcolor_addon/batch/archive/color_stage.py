@@ -3,13 +3,12 @@
 from dataclasses import replace
 from pathlib import Path
 
-from ...errors import OutputError
+from ...errors import Cancelled, OutputError
 from ...seeds.seeds_file import photos_named
 from ..check import inputs_of
 from ..paths import files_of_each
 from ..plan import IMAGE, PLACEHOLDER, RENDER, Output
 from ..plan_document import as_document
-from .costs import memory_of, seconds_of
 from .options import COLOR, ELSEWHERE, FAILED, KNOWN, UNSHOWN
 from .pairs import NO, UNTESTED, YES, write_pairs
 from .stage import remember_item, work_on
@@ -47,12 +46,17 @@ def colorize_items(context, states, photos):
             name=state.item.name,
             request={"do": "run", "plan": as_document(plan), "folder": str(context.folder.root), "hashes": hashes},
             needs_blender=plan.needs_blender,
-            memory=memory_of(plan.scans),
-            cost=seconds_of(plan.scans, 0 if plan.seeds else len(plan.photos)),
+            memory=context.costs.memory(plan.scans, () if plan.seeds else plan.photos),
+            cost=context.costs.seconds(plan.scans, 0 if plan.seeds else len(plan.photos)),
             log=context.folder.log(state.item.name),
         )
         pieces.append((state, context.done.key(COLOR, plan, hashes), task))
-    work_on(context, COLOR, pieces)
+    try:
+        work_on(context, COLOR, pieces)
+    except Cancelled:
+        # What was found so far is worth reading.
+        _write_table(context)
+        raise
     for state in states:
         if state.outcome == KNOWN and state.left_out and not _written(context, state):
             state.outcome = UNSHOWN

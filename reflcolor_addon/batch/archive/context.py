@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from ...errors import ReflcolorError
 from ..session import Session
+from .costs import Costs
 from .done import Done
 from .fingerprints import Fingerprints
 from .folder import BatchFolder
@@ -22,6 +23,7 @@ class Context:
     ----------
     manifest : Manifest
     options : Options
+    costs : Costs
     session : Session
     fingerprints : Fingerprints
     done : Done
@@ -30,6 +32,7 @@ class Context:
 
     manifest: Manifest
     options: Options
+    costs: Costs
     session: Session
     fingerprints: Fingerprints
     done: Done

@@ -1,35 +1,51 @@
-"""Estimates the cost of a scan from the size of its file, before anything is read."""
+"""Estimates what the scans of a batch cost, from the sizes that the headers of its files tell."""
 
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..memory import bytes_of_pixels
 from ..paths import scan_files
 
-# Bytes of a file for each pixel of its grid. Pixels without a return cost nothing, and files with fewer returns are
-# smaller.
+# Bytes of a file for each pixel of its grid, where its header was not read. Pixels without a return cost nothing, and
+# files with fewer returns are smaller.
 _BYTES_PER_PIXEL = {".ptx": 40.0, ".e57": 14.0}
 _OTHERS = 4.0
-# Bytes that a worker needs before there is a scan, for each pixel of the scan, and for each pixel of a photo.
+# Bytes that a worker needs before there is a scan, and for each pixel of the scan while it is colorized and written.
 _MEMORY, _MEMORY_PER_PIXEL = 350 << 20, 450
 # Seconds of one processor for each scan, each million of its pixels, and each photo that it is matched with.
 SECONDS, SECONDS_PER_MEGAPIXEL, SECONDS_PER_PAIR, SECONDS_PER_LOOK = 1.5, 8.0, 10.0, 0.25
 
 
-def pixels_of(paths):
-    """Return about how many pixels the scans in some files have, estimated from their sizes."""
-    return sum(_pixels(path) for path in paths)
+@dataclass(frozen=True, kw_only=True)
+class Costs:
+    """What the files of a batch cost.
 
+    Parameters
+    ----------
+    scans, photos : dict of Path to int
+        Pixels of the files whose headers were read, of all scans of a file together.
+    """
 
-def memory_of(paths):
-    """Return how many bytes a worker takes for the scans in some files."""
-    return int(_MEMORY + _MEMORY_PER_PIXEL * pixels_of(paths))
+    scans: dict[Path, int] = field(default_factory=dict)
+    photos: dict[Path, int] = field(default_factory=dict)
 
+    def pixels(self, scans):
+        """Return how many pixels the scans in some files have."""
+        return sum(self.scans[path] if path in self.scans else _pixels(path) for path in scans)
 
-def seconds_of(paths, photos):
-    """Return about how many seconds of a processor it takes to colorize scans, matched with so many photos."""
-    return SECONDS + SECONDS_PER_MEGAPIXEL * pixels_of(paths) / 1e6 + SECONDS_PER_PAIR * photos
+    def memory(self, scans, photos=()):
+        """Return how many bytes a worker takes for the scans in some files, matched with some photos."""
+        pixels, sizes = self.pixels(scans), [self.photos.get(Path(path), 0) for path in photos]
+        matching = bytes_of_pixels(pixels, sizes) if sizes else 0
+        return int(_MEMORY + max(_MEMORY_PER_PIXEL * pixels, matching))
+
+    def seconds(self, scans, photos):
+        """Return about how many seconds of a processor it takes to colorize scans, matched with so many photos."""
+        return SECONDS + SECONDS_PER_MEGAPIXEL * self.pixels(scans) / 1e6 + SECONDS_PER_PAIR * photos
 
 
 def _pixels(path):
+    """Estimated from the size of a file."""
     per_pixel = _BYTES_PER_PIXEL.get(Path(path).suffix.lower(), _OTHERS)
     size = 0
     for part in scan_files(Path(path)):

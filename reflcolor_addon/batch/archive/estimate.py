@@ -1,29 +1,32 @@
 """Estimates how long a batch will take, and how much memory, before it begins."""
 
+import math
+
 from ...files.memory import readable
 from ...messages import Message
 from ..plan import RENDER
 from .candidates import MOST_SCANS, are_few
-from .costs import SECONDS_PER_LOOK, memory_of, pixels_of, seconds_of
+from .costs import SECONDS_PER_LOOK
 from .progress_lines import duration
 
 _SECONDS_TO_RENDER = 8.0
 
 
-def estimate(manifest, options):
+def estimate(manifest, options, costs):
     """Return what is to be expected, one line each.
 
     Parameters
     ----------
     manifest : Manifest
     options : Options
+    costs : Costs
 
     Returns
     -------
     list of Message
     """
     items = options.chosen(manifest.items)
-    pixels = sum(pixels_of(item.plan.scans) for item in items)
+    pixels = sum(costs.pixels(item.plan.scans) for item in items)
     lines = [
         Message(
             "scans: {count}, about {pixels:.1f} megapixels together; photos: {photos}",
@@ -38,12 +41,12 @@ def estimate(manifest, options):
         # Each photo is matched with few scans, whatever the number of scans.
         pairs *= min(MOST_SCANS, offered) / offered
     seconds = sum(
-        seconds_of(item.plan.scans, pairs if item.offered else 0 if item.plan.seeds else len(item.plan.photos))
+        costs.seconds(item.plan.scans, pairs if item.offered else 0 if item.plan.seeds else len(item.plan.photos))
         + SECONDS_PER_LOOK * len(manifest.photos) * item.offered
         + _SECONDS_TO_RENDER * any(output.kind == RENDER for output in item.plan.outputs)
         for item in items
     )
-    needs = sorted((memory_of(item.plan.scans) for item in items), reverse=True)
+    needs = sorted((costs.memory(item.plan.scans, _matched(item, pairs, costs)) for item in items), reverse=True)
     lines.append(
         Message(
             "about {time} if nothing else runs (processes: {workers}), and at most {memory} of memory",
@@ -61,3 +64,12 @@ def estimate(manifest, options):
             )
         )
     return lines
+
+
+def _matched(item, pairs, costs):
+    """The photos that an item is matched with, at the worst: of the whole batch's as many as it gets, the largest."""
+    if item.plan.seeds is not None:
+        return ()
+    if not item.offered:
+        return item.plan.photos
+    return sorted(item.plan.photos, key=lambda path: -costs.photos.get(path, 0))[: math.ceil(pairs)]

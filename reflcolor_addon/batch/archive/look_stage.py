@@ -4,7 +4,6 @@ from ...files.exif import moment_of
 from ...files.readers.e57_file import acquired_at
 from ...messages import Message
 from .candidates import are_few, candidates, ranked
-from .costs import memory_of
 from .workers import Task
 
 
@@ -79,7 +78,7 @@ def _task(context, item, photos, hashes):
             "photos": photos,
             "hashes": context.hashes(scans) | {path: hashes[path] for path in photos},
         },
-        memory=memory_of(item.plan.scans),
+        memory=context.costs.memory(item.plan.scans),
         cost=1.0 + len(photos),
         log=context.folder.log(f"{item.name} look"),
     )

@@ -1,6 +1,6 @@
 """A batch as its manifest describes it: scans with what is to be done with them, and the photos for all."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..plan import Plan
@@ -43,6 +43,8 @@ class Manifest:
         Those of the whole batch.
     pairs : Path or None
         A table that says which photos show which scans, as far as a person knows.
+    photo_lines : dict of Path to int
+        Where the manifest names each photo, of one scan as well.
     """
 
     path: Path
@@ -50,6 +52,15 @@ class Manifest:
     items: tuple[Item, ...]
     photos: tuple[Path, ...]
     pairs: Path | None
+    photo_lines: dict[Path, int]
+
+    def with_photos(self, photos):
+        """Return the same batch with some of its photos only."""
+        items = (
+            replace(item, plan=replace(item.plan, photos=tuple(photos))) if item.offered else item
+            for item in self.items
+        )
+        return replace(self, photos=tuple(photos), items=tuple(items))
 
     def photo_name(self, path):
         """Return a photo's path as the manifest's folder sees it, with slashes; so the table of pairs names it."""

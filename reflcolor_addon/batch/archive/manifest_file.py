@@ -66,7 +66,7 @@ class _Reader:
         self._path, self._lines, self._refuse = path, lines, refuse
         self._whole = ManifestTable(document, (), self)
         self._folder = None
-        self._entries = {}
+        self._photo_lines = {}
 
     def refuse_at(self, at, template, /, **values):
         line = self._lines.of(*at)
@@ -101,6 +101,7 @@ class _Reader:
             items=tuple(items),
             photos=tuple(pool),
             pairs=None if pairs is None else self._path.parent / pairs,
+            photo_lines=self._photo_lines,
         )
 
     def _files(self, table, key, what):
@@ -115,6 +116,7 @@ class _Reader:
                 table.refuse(place, "{what} {text!r}: there is no such file", what=what, text=text)
             if what == "photo":
                 for path in paths:
+                    self._photo_lines.setdefault(path, self._lines.of(*table.at, *place))
                     if path.suffix.lower() not in IMAGE_SUFFIXES:
                         table.refuse(
                             place,

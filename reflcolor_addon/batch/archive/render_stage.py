@@ -6,7 +6,6 @@ from pathlib import Path
 from ...report.amended import add_output
 from ..plan import PLACEHOLDER, RENDER
 from ..plan_document import as_document
-from .costs import memory_of, seconds_of
 from .options import COLOR, FAILED, RENDERING, UNSHOWN
 from .stage import work_on
 from .workers import Task
@@ -36,8 +35,8 @@ def render_items(context, states):
             name=state.item.name,
             request={"do": "run", "plan": as_document(plan), "folder": str(context.folder.root), "hashes": hashes},
             needs_blender=True,
-            memory=memory_of(plan.scans),
-            cost=seconds_of(plan.scans, 1),
+            memory=context.costs.memory(plan.scans),
+            cost=context.costs.seconds(plan.scans, 1),
             log=context.folder.log(f"{state.item.name} render"),
         )
         pieces.append((state, context.done.key(RENDERING, plan, hashes), task))

@@ -15,7 +15,7 @@ from .stage import remember_item
 from .workers import Workers
 
 
-def run_batch(manifest, options, known_pairs, session):
+def run_batch(manifest, options, costs, known_pairs, session):
     """Work on a batch.
 
     Parameters
@@ -23,6 +23,8 @@ def run_batch(manifest, options, known_pairs, session):
     manifest : Manifest
         One that nothing is wrong with.
     options : Options
+    costs : Costs
+        From `check_files`.
     known_pairs : dict of (str, str) to bool
         From `pairs.read_pairs`.
     session : Session
@@ -54,6 +56,7 @@ def run_batch(manifest, options, known_pairs, session):
         context = Context(
             manifest=manifest,
             options=options,
+            costs=costs,
             session=session,
             fingerprints=fingerprints,
             done=Done(manifest.folder, fingerprints),

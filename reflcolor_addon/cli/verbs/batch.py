@@ -2,10 +2,13 @@
 
 import argparse
 import re
+import sys
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 from ...batch.archive.check import check_manifest
+from ...batch.archive.check_files import check_files
 from ...batch.archive.estimate import estimate
 from ...batch.archive.manifest_file import load_manifest
 from ...batch.archive.options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, Options
@@ -27,7 +30,9 @@ _SHARE = 0.8
 def add_arguments(parser):
     """Declare what ``batch`` takes."""
     parser.add_argument("input", metavar="MANIFEST.toml", type=Path, help="what manifest drafts, or a person wrote")
-    parser.add_argument("--check", action="store_true", help="only say what is wrong, how long it takes, and how much")
+    parser.add_argument(
+        "--check", action="store_true", help="only say what is wrong, how long the batch takes, and how much memory"
+    )
     parser.add_argument("--resume", action="store_true", help="leave out what was done before and did not change")
     parser.add_argument("--keep-going", action="store_true", help="go on with the other scans after one has failed")
     parser.add_argument(
@@ -56,24 +61,55 @@ def add_arguments(parser):
 def run(arguments, session):
     """Colorize all scans that a manifest names, several at once, and write a report of it.
 
-    Everything that is wrong with the manifest is said before the work begins. A scan that fails never costs another.
-    What was matched is remembered; with --resume what was colorized is, too.
+    Everything that is wrong with the manifest, and with the files that it names, is said before the work begins; with
+    --keep-going files that cannot be used are left out. A scan that fails never costs another. What was matched is
+    remembered; with --resume what was colorized is, too.
     """
-    faults = []
+    if not (arguments.openjd or sys.stderr.isatty()):
+        session.show = _plain_lines(session)
+    faults, unusable = [], []
     manifest = load_manifest(arguments.input, faults.append)
     if manifest is not None:
+        options = _options(arguments, manifest)
         check_manifest(manifest, session.blender, faults.append)
-    if faults:
-        for fault in faults:
-            session.complain(str(fault))
-        raise UsageError("{file}: {count} things are wrong, see above", file=arguments.input, count=len(faults))
+        known = _known_pairs(manifest, faults.append)
+        items = options.chosen(manifest.items)
+        costs = check_files(manifest, items, unusable.append, decode=arguments.check, progress=session.progress)
+    for fault in (*faults, *unusable):
+        session.complain(str(fault))
+    if faults or (unusable and (arguments.check or not arguments.keep_going)):
+        raise UsageError(_summary(arguments, len(faults), len(unusable)))
+    if any(item.offered for item in items):
+        manifest = manifest.with_photos([path for path in manifest.photos if path in costs.photos])
+    for line in estimate(manifest, options, costs):
+        session.say(line)
+    if arguments.check:
+        return
+    if arguments.openjd:
+        session.show = _openjd(session)
+    whole = options.first is None and len(options.stages) == len(STAGES)
+    try:
+        states = run_batch(manifest, options, costs, known, session)
+    except Cancelled:
+        if whole:
+            # Of what is done so far; this is not interrupted by the same signal.
+            _write_page(manifest.folder.root, [], replace(session, cancelled=bool))
+        raise Cancelled(
+            Message("{file}: interrupted; to go on, run the same command with --resume", file=arguments.input)
+        ) from None
+    if whole:
+        _write_page(manifest.folder.root, states, session)
+    _report_states(states, arguments, session)
+
+
+def _options(arguments, manifest):
     first, last = arguments.index or (None, None)
     if last is not None and last > len(manifest.items):
         raise UsageError(
             "--index {index}: the manifest names {count} scans", index=_text(first, last), count=len(manifest.items)
         )
     free = available_bytes()
-    options = Options(
+    return Options(
         stages=tuple(arguments.stage or STAGES),
         first=first,
         last=last,
@@ -82,22 +118,31 @@ def run(arguments, session):
         workers=arguments.jobs or thread_count(),
         memory=arguments.memory or int((free or 4 * _GIGABYTE) * _SHARE),
     )
-    for line in estimate(manifest, options):
-        session.say(line)
-    if arguments.check:
-        return
-    show = _openjd(session) if arguments.openjd else None
-    if show is not None:
-        session.show = show
-    known = {} if manifest.pairs is None else read_pairs(manifest.pairs)
+
+
+def _known_pairs(manifest, refuse):
+    """What a person knows of pairs of a scan and a photo."""
     try:
-        states = run_batch(manifest, options, known, session)
-    except Cancelled:
-        session.complain(f"{arguments.input}: interrupted; run it again with --resume to go on")
-        raise
-    if first is None and len(options.stages) == len(STAGES):
-        _write_page(manifest.folder.root, states, session)
-    _report_states(states, arguments, session)
+        return {} if manifest.pairs is None else read_pairs(manifest.pairs)
+    except UsageError as error:
+        refuse(error)
+        return {}
+
+
+def _summary(arguments, faults, unusable):
+    """The last line where a batch is not begun."""
+    count = (
+        Message("1 thing is wrong")
+        if faults + unusable == 1
+        else Message("{count} things are wrong", count=faults + unusable)
+    )
+    if faults or arguments.check:
+        return Message("{file}: {count}, see above", file=arguments.input, count=count)
+    return Message(
+        "{file}: {count}, see above; mend these files or take them out, or go on without them by --keep-going",
+        file=arguments.input,
+        count=count,
+    )
 
 
 def _write_page(root, states, session):
@@ -157,6 +202,20 @@ def _openjd(session):
             printed = percent
             session.say(f"openjd_progress: {percent}")
             session.say(f"openjd_status: {text}")
+
+    return show
+
+
+def _plain_lines(session):
+    """Progress where there is no terminal: a line for each tenth of a stage."""
+    printed = 0
+
+    def show(fraction, text):
+        nonlocal printed
+        tenth = int(10 * fraction)
+        if tenth > printed:
+            session.say(f"{10 * tenth:3d}%  {text}")
+        printed = tenth
 
     return show
 

@@ -14,7 +14,7 @@ from . import e57, image_pair, las, numpy_arrays, pcd, ply, ptx, text_cloud
 from .formats import REFUSED
 from .options import AS_IT_IS, ReadOptions
 
-__all__ = ["FORMATS", "SCAN_SUFFIXES", "ReadOptions", "read_scans"]
+__all__ = ["FORMATS", "SCAN_SUFFIXES", "ReadOptions", "read_scans", "scan_pixels"]
 
 FORMATS = tuple(module.FORMAT for module in (ptx, e57, image_pair, pcd, ply, numpy_arrays, las, text_cloud))
 """What can be read; dialogs, help texts and docs/formats.md list it."""
@@ -68,14 +68,28 @@ def read_scans(
     ...     print(scan.name, scan.shape, scan.reflectance.dtype)
     garage (20, 30) float32
     """
-    path = Path(path)
+    asked = {"options": options, "outside": outside, "progress": progress, "cancelled": cancelled}
+    return _with_format(Path(path), lambda kind, file, path: kind.read(file, path, **asked))
+
+
+def scan_pixels(path: PathLike | str, *, options: ReadOptions = AS_IT_IS, outside: bool = False) -> list[int]:
+    """Return how many pixels each scan of a file has, as its header says; its points are not read.
+
+    Of a PTX with several scans only the first one's size is known: the others count as one, estimated from the rest of
+    the file. Parameters and errors are those of `read_scans`, as far as the header shows what is wrong.
+    """
+    return _with_format(Path(path), lambda kind, file, path: kind.pixels(file, path, options=options, outside=outside))
+
+
+def _with_format(path, act):
+    """What ``act(format, file, path)`` gives for a file of a known format."""
     try:
         with opened(path, _EXPECTED, error=ScanError) as file:
             kind = _kind_of(path, file.read(_START))
             file.seek(0)
             # Numbers in untrusted files may overflow; the results are checked against limits, and reported.
             with np.errstate(over="ignore", invalid="ignore", divide="ignore", under="ignore"):
-                return kind.read(file, path, options=options, outside=outside, progress=progress, cancelled=cancelled)
+                return act(kind, file, path)
     except MemoryError:
         raise ScanError("{file}: does not fit into memory", file=path.name) from None
 

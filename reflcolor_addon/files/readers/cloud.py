@@ -54,6 +54,17 @@ def check_size(path, count, columns=8):
     )
 
 
+def require_grid(path, names, *, options, shape=None, name=None):
+    """Raise UnusableScan where the names of a file's columns, and the size of its grid, show that they are no scan."""
+    names = {name.lower() for name in names}
+    place = Place(file_name=path.name, name=name or path.stem).place
+    if not names & {"xyz"} and not names >= {"x", "y", "z"}:
+        raise UnusableScan("{file}: scan '{scan}' has no coordinates x, y and z", **place)
+    has_grid = (shape is not None and min(shape) > 1) or any(names >= set(pair) for pair in _GRIDS)
+    if options.grid != ANGLE and not has_grid:
+        raise UnusableScan("{file}: scan '{scan}' {problem}", problem=Message(NO_ROWS), **place)
+
+
 def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None, named=(), warnings=()):
     """Make a Scan of columns of points.
 

@@ -8,11 +8,14 @@ from ..gate import size_of
 from ..memory import require_memory
 from .e57_columns import E57Columns
 from .e57_file import read_structure, scan_name, scan_nodes
-from .e57_header import GROUP, GROUPS, INDEX, scan_header
+from .e57_header import GROUP, GROUPS, INDEX, require_structure, scan_header
 from .e57_points import E57Points
 from .formats import Format
 from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_grid, with_problems
 from .options import ANGLE, AS_IT_IS
+
+# Pixels for each point of a grid whose bounds are believed before it is read.
+_SPARSEST = 100
 
 
 def read_e57(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -106,6 +109,29 @@ def each_scan(file, path, *, options=AS_IT_IS, with_cells=True, progress=None, c
                 yield error, None, None
 
 
+def e57_pixels(file, path, *, options=AS_IT_IS, outside=False):
+    """Return the pixels of every scan of an E57 that can be used, by its index bounds, else its points; see
+    `scan_pixels`."""
+    root, _ = read_structure(file, path)
+    nodes = scan_nodes(root, path)
+    pixels, problems = [], []
+    for index, node in enumerate(nodes):
+        try:
+            header = scan_header(node, path.name, size_of(file), scan_name(node, path, index, len(nodes)))
+            if options.grid != ANGLE:
+                require_structure(header)
+        except UnusableScan as error:
+            problems.append(error)
+            continue
+        bounds = [end for name in INDEX for end in header.limits[name]]
+        grid = 0 if None in bounds else (bounds[1] - bounds[0] + 1) * (bounds[3] - bounds[2] + 1)
+        # Bounds that are far beyond the points are not to be relied on.
+        pixels.append(int(grid) if header.count <= grid <= header.count * _SPARSEST else header.count)
+    if not pixels:
+        with_problems([], problems, len(nodes), path)
+    return options.pixels_kept(pixels)
+
+
 def _header(node, path, file_size, name, options):
     """The ScanHeader of a scan, or the UnusableScan that says why it has none."""
     try:
@@ -126,6 +152,7 @@ FORMAT = Format(
     name="E57",
     suffixes=(".e57",),
     read=read_e57,
+    pixels=e57_pixels,
     sniff=lambda start: start.startswith(b"ASTM-E57"),
     about="scans whose points know their row and column, or their line; others with --grid angle",
 )

@@ -120,6 +120,22 @@ def scan_header(node, file_name, file_size, name):
     )
 
 
+def require_structure(header):
+    """Raise UnusableScan where a ScanHeader already tells that its points have neither rows and columns nor lines."""
+    if header.grouped_by is None and not any(header.has([name]) for name in INDEX):
+        raise unstructured(header)
+
+
+def unstructured(header):
+    """Return the UnusableScan for a scan without rows and columns."""
+    return UnusableScan(
+        "{file}: scan '{scan}' is unstructured (its points have no rowIndex and columnIndex); export it as PTX "
+        "or as a structured (gridded) E57, or have a grid laid over its points: --grid angle, or Grid by Angle "
+        "in the import dialog",
+        **header.place,
+    )
+
+
 def _groups(node, file_size):
     """The index that lines of points have in common, and how many lines there are; (None, 0) where there are none."""
     groups, named = node.child(*GROUPS), node.child(*GROUPS[:2], "idElementName")

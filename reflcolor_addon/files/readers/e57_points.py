@@ -9,9 +9,8 @@ from ...messages import of_scan
 from .angle import gridded_by_angle
 from .colors import scaled_colors
 from .e57_grid import IndexGrid
-from .e57_header import CARTESIAN, CARTESIAN_STATE, COLOR, INDEX, SPHERICAL, SPHERICAL_STATE
+from .e57_header import CARTESIAN, CARTESIAN_STATE, COLOR, INDEX, SPHERICAL, SPHERICAL_STATE, unstructured
 from .e57_thinning import Thinning
-from .grid import UnusableScan
 from .growing import Growing
 from .lines import indices_of_lines
 from .options import ANGLE
@@ -170,12 +169,7 @@ class E57Points:
             return stored["rowIndex"], stored["columnIndex"]
         found = indices_of_lines(stored, self._header)
         if found is None:
-            raise UnusableScan(
-                "{file}: scan '{scan}' is unstructured (its points have no rowIndex and columnIndex); export it as PTX "
-                "or as a structured (gridded) E57, or have a grid laid over its points: --grid angle, or Grid by Angle "
-                "in the import dialog",
-                **self._header.place,
-            )
+            raise unstructured(self._header)
         warn("its points have no rows and columns of their own, but follow each other in lines; these were taken")
         return found
 

@@ -16,6 +16,10 @@ class Format:
     read : callable
         Called as ``read(file, path, options=, outside=, progress=, cancelled=)`` with the open binary file; returns a
         list of Scan, raises ScanError or Cancelled.
+    pixels : callable
+        Called as ``pixels(file, path, options=, outside=)``; returns how many pixels each scan has, as far as the
+        file's header tells without its points being read. Raises ScanError where the header alone shows that it cannot
+        be read.
     sniff : callable or None
         Called with the first bytes of a file; True where they can be no other format's. None for plain numbers.
     about : str
@@ -25,6 +29,7 @@ class Format:
     name: str
     suffixes: tuple[str, ...]
     read: Callable
+    pixels: Callable
     sniff: Callable | None
     about: str
 

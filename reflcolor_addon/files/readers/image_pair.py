@@ -1,5 +1,7 @@
 """Image pairs: a range and a reflectance image, aligned pixel by pixel, that a `.scan.json` describes."""
 
+from contextlib import contextmanager
+
 import numpy as np
 
 from ...errors import Cancelled, ImageError, ScanError
@@ -8,12 +10,12 @@ from ...scan.limits import FARTHEST_M, STRONGEST
 from ...scan.orientation import flipped, thinned
 from ...scan.scan import Scan
 from ..gate import beside
-from ..images import read_image, read_measured
+from ..images import image_size, read_image, read_measured
 from ..json_files import parse_json
 from ..memory import require_memory
 from .formats import Format
 from .grid import BYTES_PER_PIXEL
-from .numpy_arrays import array_of
+from .numpy_arrays import array_of, array_shape
 from .options import AS_IT_IS
 from .reflectance import told_apart
 from .scan_json import EXPECTED, LARGEST_FILE, check_description, file_and_array
@@ -134,6 +136,20 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     return [thinned(flipped(upright, turn_deg=options.turn_deg, **flips), options.step)]
 
 
+def image_pair_pixels(file, path, *, options=AS_IT_IS, outside=False):
+    """Return the pixels of the scan that a `.scan.json` describes, whose images have one size; see `scan_pixels`."""
+    description = check_description(parse_json(file, path, EXPECTED, error=ScanError, most=LARGEST_FILE), path.name)
+    images = _Images(path, outside, None)
+    shape = images.size("range", description.range)
+    for key in ("reflectance", "color"):
+        image = getattr(description, key)
+        size = shape if image is None else images.size(key, image)
+        # A photo may be stored lying on its side.
+        if key != "color" or size[::-1] != shape:
+            _require_same_size(path, key, image, size, shape)
+    return options.pixels_kept([shape[0] * shape[1]])
+
+
 def full_code(values, valid):
     """Return the greatest number that a 16-bit image can hold where it means no return; None where it does not.
 
@@ -156,6 +172,22 @@ class _Images:
         self._path, self._outside, self._cancelled = path, outside, cancelled
 
     def __call__(self, key, image, read):
+        place, member = self._found(key, image)
+        if member is not None:
+            return _as_image(array_of(place, member), key, self._path)
+        with self._named(key):
+            return read(place, cancelled=self._cancelled)
+
+    def size(self, key, image):
+        """Rows and columns, as the file's header says them."""
+        place, member = self._found(key, image)
+        if member is not None:
+            return array_shape(place, member)[:2]
+        with self._named(key):
+            return image_size(place)
+
+    def _found(self, key, image):
+        """The path of an image, and the name of its array or None."""
         name, member = file_and_array(image)
         place = beside(self._path, name, outside=self._outside)
         if place is None:
@@ -165,10 +197,12 @@ class _Images:
                 key=key,
                 image=image,
             )
-        if member is not None:
-            return _as_image(array_of(place, member), key, self._path)
+        return place, member
+
+    @contextmanager
+    def _named(self, key):
         try:
-            return read(place, cancelled=self._cancelled)
+            yield
         except ImageError as error:
             raise ScanError("{file}: {key}: {problem}", file=self._path.name, key=key, problem=error.message) from None
 
@@ -205,6 +239,7 @@ FORMAT = Format(
     name="image pair",
     suffixes=(".scan.json",),
     read=read_image_pair,
+    pixels=image_pair_pixels,
     sniff=lambda start: start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{"),
     about="a range and a reflectance image (PNG, TIFF, EXR) and what describes their sensor",
 )

@@ -12,7 +12,7 @@ from ...messages import Message, one_line
 from ...scan.limits import MOST_PIXELS
 from ..confined.reading import ConfinedReading, native_library
 from ..gate import size_of
-from .cloud import check_size, scan_of_columns
+from .cloud import check_size, require_grid, scan_of_columns
 from .formats import Format
 from .options import AS_IT_IS
 
@@ -51,6 +51,14 @@ def read_las(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     else:
         data = _stored(file, path, header, report)
     return [scan_of_columns(path, _columns(data, header), options=options)]
+
+
+def las_pixels(file, path, *, options=AS_IT_IS, outside=False):
+    """Return the points of a LAS or LAZ; see `scan_pixels`."""
+    header = _header(file, path)
+    names = [name.replace(" ", "_") for name in header.point_format.dimension_names]
+    require_grid(path, names, options=options)
+    return options.pixels_kept([header.point_count])
 
 
 def imported_laspy():
@@ -188,6 +196,7 @@ FORMAT = Format(
     name="LAS and LAZ",
     suffixes=(".las", ".laz"),
     read=read_las,
+    pixels=las_pixels,
     sniff=lambda start: start.startswith(_MAGIC),
     about="points without a grid, with --grid angle; or with rows and columns as fields of their own",
 )

@@ -8,7 +8,7 @@ from ...errors import ScanError
 from ...messages import Message, of_scan
 from ...scan.directions import directions
 from ..gate import opened
-from .cloud import scan_of_columns
+from .cloud import require_grid, scan_of_columns
 from .formats import Format
 from .numpy_file import MAGIC, ZIP, NumpyFile
 from .options import ANGLE, AS_IT_IS
@@ -55,6 +55,26 @@ def read_numpy(file, path, *, options=AS_IT_IS, outside=False, progress=None, ca
     return [scan_of_columns(path, columns, options=options, shape=shape, warnings=warnings)]
 
 
+def numpy_pixels(file, path, *, options=AS_IT_IS, outside=False):
+    """Return the pixels of arrays of a grid, without the columns that their azimuths leave out; see `scan_pixels`."""
+    shapes = NumpyFile(file, path).shapes()
+    size, angles = _grid_size(shapes), [any(name in shapes for name in names) for names in (_AZIMUTHS, _ELEVATIONS)]
+    if size is not None and (all(angles) or not _by_angles(shapes)):
+        return options.pixels_kept([size[0] * size[1]])
+    points = next((shapes[name] for name in (*_POINTS, "", "x") if name in shapes), None)
+    if points is None:
+        raise _unknown(shapes, path)
+    names = [name for name, shape in shapes.items() if shape == points[:1]]
+    require_grid(path, [*names, "xyz"], options=options)
+    return options.pixels_kept([points[0]])
+
+
+def array_shape(path, member):
+    """Return the shape of what `array_of` returns, without reading it; raises as it does."""
+    with opened(path, Message("NumPy arrays"), error=ScanError) as file:
+        return _member(NumpyFile(file, path).shapes(), member, path)
+
+
 def array_of(path, member):
     """Return one array of a .npy or .npz by its name; the only one where no name is given.
 
@@ -65,15 +85,27 @@ def array_of(path, member):
     """
     with opened(path, Message("NumPy arrays"), error=ScanError) as file:
         arrays = NumpyFile(file, path).arrays()
-    found = arrays.get(member.lower()) if member else next(iter(arrays.values()), None) if len(arrays) == 1 else None
-    if found is None or found.dtype.kind not in "fiu":
-        raise ScanError(
-            "{file}: has no array {member} of numbers, it holds {found}",
-            file=path.name,
-            member=member or Message("of its own"),
-            found=", ".join(sorted(arrays)) or Message("nothing"),
-        )
+    found = _member(arrays, member, path)
+    if found.dtype.kind not in "fiu":
+        raise _without_member(arrays, member, path)
     return found
+
+
+def _member(arrays, member, path):
+    """What there is of one array by its name; the only one where no name is given."""
+    found = arrays.get(member.lower()) if member else next(iter(arrays.values()), None) if len(arrays) == 1 else None
+    if found is None:
+        raise _without_member(arrays, member, path)
+    return found
+
+
+def _without_member(arrays, member, path):
+    return ScanError(
+        "{file}: has no array {member} of numbers, it holds {found}",
+        file=path.name,
+        member=member or Message("of its own"),
+        found=", ".join(sorted(arrays)) or Message("nothing"),
+    )
 
 
 def _points(arrays, path):
@@ -99,12 +131,7 @@ def _of_angles(arrays, path):
     distance = next((arrays[name] for name in _RANGES if name in arrays), None)
     azimuth, elevation = (_angles(arrays, names) for names in (_AZIMUTHS, _ELEVATIONS))
     if distance is None or azimuth is None or elevation is None or distance.ndim != 2:
-        raise ScanError(
-            "{file}: expected x, y and z, or range with azimuth and elevation; it holds {found}. Where there are no "
-            "angles, a .scan.json beside it can give them (docs/formats.md)",
-            file=path.name,
-            found=", ".join(sorted(arrays)) or Message("nothing"),
-        )
+        raise _unknown(arrays, path)
     height, width = distance.shape
     if azimuth.shape == (width,) and elevation.shape == (height,):
         rays = directions(azimuth, elevation)
@@ -122,6 +149,15 @@ def _of_angles(arrays, path):
     meters = distance.astype(np.float64) * (0.001 if distance.dtype.kind in "iu" else 1.0)
     with np.errstate(invalid="ignore"):
         return rays * np.where(np.isfinite(meters) & (meters > 0), meters, 0.0)[..., None]
+
+
+def _unknown(arrays, path):
+    return ScanError(
+        "{file}: expected x, y and z, or range with azimuth and elevation; it holds {found}. Where there are no "
+        "angles, a .scan.json beside it can give them (docs/formats.md)",
+        file=path.name,
+        found=", ".join(sorted(arrays)) or Message("nothing"),
+    )
 
 
 def _angles(arrays, names):
@@ -168,6 +204,13 @@ def _by_angles(shapes):
     return not any(name in shapes for name in (*_POINTS, "", "x")) and any(name in shapes for name in _RANGES)
 
 
+def _grid_size(shapes):
+    """Rows and columns of the grid that arrays of these shapes have; None where there is none."""
+    names = [name for name in (*_POINTS, "") if len(shapes.get(name, ())) == 3]
+    names += [name for name in ("x", *_RANGES) if len(shapes.get(name, ())) == 2]
+    return shapes[names[0]][:2] if names else None
+
+
 def _thinning(step):
     """Which part to read of arrays of a grid, and of the angles of its rows and columns; see `NumpyFile.arrays`."""
 
@@ -175,11 +218,10 @@ def _thinning(step):
         if _by_angles(shapes) and not and_angles:
             # Columns may be missing, so they are counted when the azimuths are known; ranges take little memory.
             return {}
-        names = [name for name in (*_POINTS, "") if len(shapes.get(name, ())) == 3]
-        names += [name for name in ("x", *_RANGES) if len(shapes.get(name, ())) == 2]
-        if not names:
+        size = _grid_size(shapes)
+        if size is None:
             return {}
-        height, width = shapes[names[0]][:2]
+        height, width = size
         every = slice(None, None, step)
         parts = {name: (every, every) for name, shape in shapes.items() if shape[:2] == (height, width)}
         lines = ((_AZIMUTHS, width), (_ELEVATIONS, height))
@@ -193,6 +235,7 @@ FORMAT = Format(
     name="NumPy",
     suffixes=(".npz", ".npy"),
     read=read_numpy,
+    pixels=numpy_pixels,
     sniff=lambda start: start.startswith((MAGIC, ZIP)),
     about="x, y, z, or range with azimuth and elevation, each of the grid's size; reflectance, color",
 )

@@ -5,6 +5,7 @@ import struct
 import tokenize
 import zipfile
 import zlib
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -58,16 +59,34 @@ class NumpyFile:
         Cancelled
             If ``cancelled()`` returned True.
         """
-        start = self._file.read(len(MAGIC))
-        self._file.seek(0)
-        try:
-            if start == MAGIC:
+        wanted = wanted or _all
+        with self._damage_reported():
+            if self._is_one_array():
                 shape, *_ = _header(self._file, size_of(self._file), self._path)
                 self._file.seek(0)
                 whole = size_of(self._file)
-                return _named(self._array(self._file, whole, (wanted or _all)({"": shape}).get(""), 0, whole))
+                return _named(self._array(self._file, whole, wanted({"": shape}).get(""), 0, whole))
             with zipfile.ZipFile(self._file) as archive:
-                return self._members(archive, wanted or _all)
+                return self._members(archive, wanted)
+
+    def shapes(self):
+        """Return the shapes of the arrays by name; nothing else of them is read. Errors are those of `arrays`."""
+        with self._damage_reported():
+            if self._is_one_array():
+                shape, _, dtype = _header(self._file, size_of(self._file), self._path)
+                return dict.fromkeys(map(str.lower, dtype.names or [""]), shape)
+            with zipfile.ZipFile(self._file) as archive:
+                return self._shapes(archive, self._listed(archive))
+
+    def _is_one_array(self):
+        start = self._file.read(len(MAGIC))
+        self._file.seek(0)
+        return start == MAGIC
+
+    @contextmanager
+    def _damage_reported(self):
+        try:
+            yield
         except ScanError:
             raise
         except _DAMAGED as error:
@@ -77,7 +96,8 @@ class NumpyFile:
                 file=self._path.name,
             ) from error
 
-    def _members(self, archive, wanted):
+    def _listed(self, archive):
+        """The arrays of a .npz, which its size can hold."""
         members = [member for member in archive.infolist() if member.filename.endswith(".npy")]
         if len(members) > _MOST_MEMBERS:
             raise ScanError("{file}: holds {count:,} arrays", file=self._path.name, count=len(members))
@@ -87,10 +107,18 @@ class NumpyFile:
             raise ScanError("{file}: is encrypted; save it without a password", file=self._path.name)
         if any(member.compress_type not in _PACKED_BY for member in members):
             raise ScanError("{file}: uses a compression that NumPy does not write", file=self._path.name)
+        return members
+
+    def _shapes(self, archive, members):
         shapes = {}
         for member in members:
             with archive.open(member) as data:
                 shapes[_name(member)] = _header(data, member.file_size, self._path)[0]
+        return shapes
+
+    def _members(self, archive, wanted):
+        members = self._listed(archive)
+        shapes = self._shapes(archive, members)
         parts = wanted(shapes)
         found, done, whole = {}, 0, sum(member.file_size for member in members)
         for member in members:

@@ -74,6 +74,10 @@ class ReadOptions:
         if self.step < 1:
             raise UsageError("step: expected a whole number of at least 1, found {found}", found=self.step)
 
+    def pixels_kept(self, pixels):
+        """Return how many pixels are left of scans with so many; a grid by angle has about one for each point."""
+        return [max(1, count // (1 if self.grid == ANGLE else self.step**2)) for count in pixels]
+
     def as_dict(self):
         """Return what is not as it would be anyway, ready for JSON."""
         return {

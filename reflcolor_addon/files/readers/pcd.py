@@ -9,7 +9,7 @@ from ...errors import Cancelled, ScanError
 from ...messages import Message
 from ...scan.limits import MOST_PIXELS
 from ..gate import size_of
-from .cloud import check_size, scan_of_columns
+from .cloud import check_size, require_grid, scan_of_columns
 from .formats import Format
 from .options import ANGLE, AS_IT_IS
 from .poses import quaternion_pose
@@ -30,10 +30,7 @@ def read_pcd(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     Parameters and errors are those of `read_scans`.
     """
     header, names, types, counts = _header(file, path)
-    width, height = (_whole(header, key, path) for key in ("WIDTH", "HEIGHT"))
-    count = width * height
-    if not 0 < count <= MOST_PIXELS:
-        raise ScanError("{file}: claims {count:,} points", file=path.name, count=count)
+    width, height, count = _size(header, path)
     organized = height > 1 and options.grid != ANGLE
     step = options.step if organized else 1
     check_size(path, count // step**2, len(names))
@@ -63,6 +60,25 @@ def read_pcd(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     options = replace(options, step=options.step // step)
     scan = scan_of_columns(path, columns, options=options, shape=shape, pose=pose, warnings=warnings)
     return [scan]
+
+
+def pcd_pixels(file, path, *, options=AS_IT_IS, outside=False):
+    """Return the points of a PCD; see `scan_pixels`."""
+    header, names, types, counts = _header(file, path)
+    width, height, count = _size(header, path)
+    require_grid(path, names, options=options, shape=(height, width) if height > 1 else None)
+    if header["DATA"][0].lower() == "binary":
+        size = sum(np.dtype(kind).itemsize * number for kind, number in zip(types, counts, strict=True))
+        _require(size_of(file) - file.tell() >= count * size, path)
+    return options.pixels_kept([count])
+
+
+def _size(header, path):
+    """Width, height and the number of points."""
+    width, height = (_whole(header, key, path) for key in ("WIDTH", "HEIGHT"))
+    if not 0 < width * height <= MOST_PIXELS:
+        raise ScanError("{file}: claims {count:,} points", file=path.name, count=width * height)
+    return width, height, width * height
 
 
 def _header(file, path):
@@ -229,6 +245,7 @@ FORMAT = Format(
     name="PCD",
     suffixes=(".pcd",),
     read=read_pcd,
+    pixels=pcd_pixels,
     sniff=lambda start: start.startswith((b"# .PCD", b"VERSION ", b"FIELDS ")),
     about="organized clouds (ascii, binary, compressed); others with --grid angle",
 )

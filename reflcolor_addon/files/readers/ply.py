@@ -10,7 +10,7 @@ from ...messages import Message
 from ...scan.limits import MOST_PIXELS
 from ...scan.scan import is_plausible
 from ..gate import size_of
-from .cloud import check_size, scan_of_columns
+from .cloud import check_size, require_grid, scan_of_columns
 from .formats import Format
 from .options import ANGLE, AS_IT_IS
 from .text_lines import TextLines
@@ -40,9 +40,7 @@ def read_ply(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     Parameters and errors are those of `read_scans`.
     """
     header = _Header(file, path)
-    vertices = header.elements.get("vertex")
-    if vertices is None or not 0 < vertices.count <= MOST_PIXELS:
-        raise ScanError("{file}: holds no vertices", file=path.name)
+    vertices = header.vertices
     step = 1 if options.grid == ANGLE else options.step
     numbered = {name for name, *_ in vertices.properties}.issuperset(_NUMBERS)
     check_size(path, vertices.count // (step**2 if numbered else 1), len(vertices.properties))
@@ -76,6 +74,22 @@ def read_ply(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     if thinning is not None:
         options = replace(options, step=1)
     return _scans(path, columns, shape, header, options)
+
+
+def ply_pixels(file, path, *, options=AS_IT_IS, outside=False):
+    """Return the pixels of a PLY, those of several scans together; see `scan_pixels`."""
+    header = _Header(file, path)
+    vertices, shape = header.vertices, header.stated_size()
+    ranged = "range_grid" in header.elements
+    if shape is not None and not ranged and shape[0] * shape[1] != vertices.count:
+        shape = None
+    names = [name for name, *_ in vertices.properties]
+    require_grid(path, names, options=options, shape=shape)
+    if header.order is not None and not vertices.has_lists and next(iter(header.elements.values())) is vertices:
+        size = vertices.count * sum(np.dtype(kind).itemsize for _, kind, _ in vertices.properties)
+        if size > size_of(file) - file.tell():
+            raise ScanError("{file}: holds less than its header says; it is cut short", file=path.name)
+    return options.pixels_kept([shape[0] * shape[1] if ranged and shape is not None else vertices.count])
 
 
 def _scans(path, columns, shape, header, options):
@@ -183,6 +197,14 @@ class _Header:
         twice = any(len(set(given)) < len(given) for given in names)
         if self.order == "unknown" or twice or any(not 0 <= element.count < 2**40 for element in elements):
             raise ScanError("{file}: its header is damaged", file=path.name)
+
+    @property
+    def vertices(self):
+        """The element of the vertices; raises ScanError where there is none that can be read."""
+        vertices = self.elements.get("vertex")
+        if vertices is None or not 0 < vertices.count <= MOST_PIXELS:
+            raise ScanError("{file}: holds no vertices", file=self._path.name)
+        return vertices
 
     def stated_size(self):
         """(rows, columns) that comments state, or None."""
@@ -316,6 +338,7 @@ FORMAT = Format(
     name="PLY",
     suffixes=(".ply",),
     read=read_ply,
+    pixels=ply_pixels,
     sniff=lambda start: start.startswith((b"ply\n", b"ply\r")),
     about="vertices with rows and columns (as are written here), range grids; others with --grid angle",
 )

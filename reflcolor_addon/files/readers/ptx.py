@@ -20,6 +20,8 @@ from .ptx_points import END_MARKS, PointLines, number_of, shortened, shown
 from .text_lines import TextLines
 
 _SHORTEST_LINE = len("0 0 0 0\n")
+# Lines whose mean length tells how many there are, and which share of a scan more than the first one is another scan.
+_LINES_TO_MEASURE, _ANOTHER = 4096, 0.05
 _COUNT = re.compile(r"\d{1,18}(\.0*)?")
 
 
@@ -134,7 +136,55 @@ class _CutShort(Exception):
         super().__init__(str(error))
 
 
+def ptx_pixels(file, path, *, options=AS_IT_IS, outside=False):
+    """Return the pixels of the first scan of a PTX and, where the rest of the file has room for more, those of the
+    others together, by the length of the first lines; see `scan_pixels`."""
+    lines = TextLines(file, path)
+    while (line := lines.next_line()) is not None and not line.strip(END_MARKS):
+        continue
+    if line is None:
+        raise ScanError("{file}: holds no text, expected the header of a PTX scan", file=path.name)
+    try:
+        columns, rows, *_ = _read_header(lines, line, after=False)
+    except _CutShort as cut:
+        raise cut.error from None
+    count, left = columns * rows, lines.bytes_left()
+    some = lines.take(min(count, _LINES_TO_MEASURE))
+    others = round(left * len(some) / max(sum(len(line) + 1 for line in some), 1)) - count
+    pixels = [count, others] if others > count * _ANOTHER else [count]
+    return options.pixels_kept(pixels)
+
+
 def _read_scan(lines, first, *, after, options):
+    columns, rows, count, placed = _read_header(lines, first, after=after)
+    step = 1 if options.grid == ANGLE else options.step
+    require_memory(
+        count // step**2 * BYTES_PER_PIXEL,
+        Message("{file}: {columns} columns x {rows} rows", file=lines.path.name, columns=columns, rows=rows),
+        way=LIGHTER,
+        error=ScanError,
+    )
+    body = PointLines(lines, count, (rows, columns), step)
+    found = body.read()
+    notes = body.notes()
+    if found < columns * rows:
+        ended = lines.error(
+            "the file ends after {at} of {count} points ({columns} columns x {rows} rows); it is cut short",
+            at=found,
+            count=columns * rows,
+            columns=columns,
+            rows=rows,
+        )
+        # If there is only one scan, its complete columns are better than nothing.
+        if after or found < 2 * rows:
+            raise _CutShort(ended)
+        notes.append(Message("{reason}; its complete columns were read", reason=ended.message))
+    grids = body.grids(found, notes)
+    return {**grids, "step": options.step // step, "placed": placed, "warnings": notes}
+
+
+def _read_header(lines, first, *, after):
+    """Columns, rows, the points that the rest of the file has room for, and (position, axes, matrix) of a scan."""
     try:
         columns = _count(lines, first, Message("columns"), after)
         header = lines.number
@@ -160,31 +210,7 @@ def _read_scan(lines, first, *, after, options):
             most=room,
         )
         raise _CutShort(announced)
-    count = min(count, room)
-    step = 1 if options.grid == ANGLE else options.step
-    require_memory(
-        count // step**2 * BYTES_PER_PIXEL,
-        Message("{file}: {columns} columns x {rows} rows", file=lines.path.name, columns=columns, rows=rows),
-        way=LIGHTER,
-        error=ScanError,
-    )
-    body = PointLines(lines, count, (rows, columns), step)
-    found = body.read()
-    notes = body.notes()
-    if found < columns * rows:
-        ended = lines.error(
-            "the file ends after {at} of {count} points ({columns} columns x {rows} rows); it is cut short",
-            at=found,
-            count=columns * rows,
-            columns=columns,
-            rows=rows,
-        )
-        # If there is only one scan, its complete columns are better than nothing.
-        if after or found < 2 * rows:
-            raise _CutShort(ended)
-        notes.append(Message("{reason}; its complete columns were read", reason=ended.message))
-    grids = body.grids(found, notes)
-    return {**grids, "step": options.step // step, "placed": (position, axes, matrix), "warnings": notes}
+    return columns, rows, min(count, room), (position, axes, matrix)
 
 
 def _header_line(lines, what):
@@ -223,6 +249,7 @@ FORMAT = Format(
     name="PTX",
     suffixes=(".ptx",),
     read=read_ptx,
+    pixels=ptx_pixels,
     sniff=_is_ptx,
     about="one or several scans, in any order of rows and columns",
 )

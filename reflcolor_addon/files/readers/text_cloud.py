@@ -5,7 +5,7 @@ import numpy as np
 from ...errors import ReflcolorError, ScanError
 from ...scan.limits import MOST_PIXELS
 from ..gate import opened
-from .cloud import check_size, scan_of_columns
+from .cloud import check_size, require_grid, scan_of_columns
 from .formats import Format
 from .options import AS_IT_IS
 from .text_lines import TextLines
@@ -14,6 +14,7 @@ _WIDTHS = {3: "", 4: "i", 6: "rgb", 7: "irgb"}
 _SHORTEST_LINE = 6
 # Bytes from the beginning of a file in which a point is looked for.
 _START = 4096
+_LINES_TO_MEASURE = 4096
 
 
 def read_text_cloud(file, path, *, options=AS_IT_IS, outside=False, progress=None, cancelled=None):
@@ -52,6 +53,14 @@ def read_text_cloud(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     return [scan_of_columns(path, columns, options=options)]
 
 
+def text_cloud_pixels(file, path, *, options=AS_IT_IS, outside=False):
+    """Return about how many points a text has, by the length of its lines; see `scan_pixels`."""
+    require_grid(path, "xyz", options=options)
+    lines = TextLines(file, path)
+    some = lines.take(_LINES_TO_MEASURE)
+    return [max(1, round(lines.size * len(some) / max(sum(len(line) + 1 for line in some), 1)))]
+
+
 def begins_with_points(path):
     """Whether a text file holds a point within its first lines; also where it cannot be opened, which is told later."""
     try:
@@ -86,6 +95,7 @@ FORMAT = Format(
     name="PTS and texts",
     suffixes=(".pts", ".xyz", ".txt", ".asc", ".csv"),
     read=read_text_cloud,
+    pixels=text_cloud_pixels,
     sniff=None,
     about="points without a grid, a line each, with --grid angle",
 )

@@ -1,0 +1,53 @@
+"""Looks at the scans and photos of a batch before the work begins: at the headers of all, and at whole photos."""
+
+from functools import partial
+
+from ...errors import ReflcolorError, UsageError
+from ...files.images import check_image, image_size
+from ...files.readers import scan_pixels
+from ...messages import Message
+from .costs import Costs
+
+
+def check_files(manifest, items, refuse, *, decode, progress):
+    """Look at every scan and photo of some items.
+
+    Parameters
+    ----------
+    manifest : Manifest
+    items : list of Item
+    refuse : callable
+        Given a UsageError for each file that cannot be used, with the line that names it.
+    decode : bool
+        Whether photos are decoded, too, which finds the damaged ones and takes longer.
+    progress : callable
+        Called as ``progress(fraction, text)``; may raise Cancelled.
+
+    Returns
+    -------
+    Costs
+        By the sizes found.
+    """
+    scans = {path: (item.line, item.plan) for item in items for path in item.plan.scans}
+    photos = {path: manifest.photo_lines[path] for item in items for path in item.plan.photos}
+    found, count, done = Costs(), len(scans) + len(photos), 0
+
+    def look(path, line, act):
+        nonlocal done
+        progress(done / count, Message("Checking {name}", name=path.name))
+        done += 1
+        try:
+            return act()
+        except (ReflcolorError, UsageError) as error:
+            refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=line, problem=error.message))
+            return None
+
+    for path, (line, plan) in scans.items():
+        pixels = look(path, line, partial(scan_pixels, path, options=plan.reading, outside=plan.outside_files))
+        if pixels is not None:
+            found.scans[path] = sum(pixels)
+    for path, line in photos.items():
+        size = look(path, line, partial(check_image if decode else image_size, path))
+        if size is not None:
+            found.photos[path] = size[0] * size[1]
+    return found
