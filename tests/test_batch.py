@@ -1,5 +1,6 @@
 """A batch: every scan is colorized once, and one scan's fault never affects another."""
 
+import csv
 import json
 from dataclasses import MISSING, fields
 from pathlib import Path
@@ -99,6 +100,37 @@ def test_a_scan_and_a_photo_that_cannot_be_used_are_named_before_anything_is_beg
     assert not (archive / "colored").exists()
 
 
+def test_what_is_there_twice_is_worked_on_once_and_told(archive, batch):
+    rng = np.random.default_rng(0)
+    write_png(archive / "a.png", rng.integers(0, 256, (40, 60, 3)).astype(np.uint8))
+    for name, copy in (("a.png", "a (copy).png"), ("hall_0.ptx", "b.ptx")):
+        (archive / copy).write_bytes((archive / name).read_bytes())
+    (archive / "batch.toml").write_text(HEAD + 'scans = ["hall_0.ptx", "b.ptx"]\nphotos = "a*.png"\n', encoding="utf-8")
+    status, out, _ = batch()
+    assert status == 0
+    assert "a.png: the same photo as a (copy).png, so it is left out\n" in out
+    assert "b.ptx: the same scan as hall_0.ptx\n" in out
+    assert "hall_0: the photo tried does not show it for certain (1 of 1)" in out and "1 the same as another" in out
+    with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
+        notes = {
+            (row["scan"], row["photo"]): row["note"] for row in csv.DictReader(file) if row["shows"] == "not tried"
+        }
+    assert notes == {
+        ("b", "a (copy).png"): "the same scan as hall_0",
+        ("b", "a.png"): "the same file as a (copy).png",
+        ("hall_0", "a.png"): "the same file as a (copy).png",
+    }
+    row = table_of(archive)["b"]
+    assert (row["state"], row["file"]) == ("duplicate", "b.ptx")
+    assert row["note"] == "the same as hall_0, whose results are its own, too"
+
+
+def test_the_same_scan_with_other_settings_is_worked_on(archive, batch):
+    (archive / "hall_1.ptx").write_bytes((archive / "hall_0.ptx").read_bytes())
+    status, out, _ = batch()
+    assert status == 0 and "hall_1.ptx: the same scan as hall_0.ptx" in out and "3 done" in out
+
+
 def test_the_estimate_rests_on_the_sizes_in_the_headers(archive, batch):
     # A scan without returns is a small file.
     zero = "0 0 0 0\n" * 2_000_000
@@ -109,7 +141,7 @@ def test_the_estimate_rests_on_the_sizes_in_the_headers(archive, batch):
 
 def test_progress_is_told_in_lines_where_there_is_no_terminal(archive, batch):
     _, out, _ = batch()
-    assert " 30%  Checking hall_1.ptx\n" in out and "100%  Colorized 3 of 3\n" in out
+    assert " 30%  Checking hall_1.ptx\n" in out and "\n100%  Colorized " in out
 
 
 def test_progress_for_an_engine_of_a_render_farm(archive, batch):

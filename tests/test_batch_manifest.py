@@ -12,6 +12,7 @@ from reflcolor_addon import Seeds
 from reflcolor_addon.batch.archive.check import check_manifest
 from reflcolor_addon.batch.archive.draft import draft
 from reflcolor_addon.batch.archive.manifest_file import load_manifest
+from reflcolor_addon.batch.archive.names import item_names
 from reflcolor_addon.batch.archive.pairs import read_pairs
 from reflcolor_addon.errors import UsageError
 from reflcolor_addon.files.images import write_png
@@ -88,15 +89,26 @@ def test_what_counts_for_a_site_is_the_last_value_of_each_scan(folder):
     assert manifest.items[0].plan.settings.light == 0
 
 
-def test_scans_of_one_name_in_different_folders_get_names_of_their_own(folder):
+def test_scans_of_one_name_are_called_by_their_folders_too(folder):
     for name in ("east", "west"):
         (folder / name).mkdir()
         write_ptx(random_scan(), folder / name / "Hall 1.ptx")
     manifest, faults = read(folder, HEAD + 'scans = ["*/Hall 1.ptx"]\nphotos = "photos/a.png"\n')
     assert faults == []
-    names = [item.name for item in manifest.items]
-    assert len({name.casefold() for name in names}) == 2
-    assert all(name.startswith("Hall") for name in names)
+    assert [item.name for item in manifest.items] == ["east_Hall_1", "west_Hall_1"]
+
+
+@pytest.mark.parametrize(
+    ("paths", "names"),
+    [
+        (["scan (2).ptx", "scan [2].ptx", "scan.ptx"], ["scan_(2)", "scan_[2]", "scan"]),
+        (["a/x/s.ptx", "b/x/s.ptx", "t.ptx"], ["a_x_s", "b_x_s", "t"]),
+        (["hall.ptx", "hall.e57", "Hall.scan.json"], ["hall.ptx", "hall.e57", "Hall.scan.json"]),
+        (["A b.ptx", "A_b.ptx", "a&b.ptx"], ["A_b", "A_b_2", "a_b_3"]),
+    ],
+)
+def test_names_say_which_file_they_come_from_and_no_two_are_the_same(paths, names):
+    assert item_names([None] * len(paths), [Path(path) for path in paths]) == names
 
 
 def test_everything_wrong_is_named_at_once_with_its_line(folder):

@@ -5,12 +5,14 @@ import json
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
-from archives import make_archive, table_of
+from archives import HEAD, make_archive, table_of
 
 from reflcolor_addon.batch.archive.pairs import COLUMNS, read_pairs, write_pairs
 from reflcolor_addon.cli.main import main
 from reflcolor_addon.errors import UsageError
+from reflcolor_addon.files.images import write_png
 
 
 def test_the_table_of_pairs_survives_a_spreadsheet(tmp_path):
@@ -40,6 +42,20 @@ def test_the_report_page_is_one_file_that_tells_of_every_scan(archive, batch):
     (archive / "colored" / "report.html").unlink()
     assert main(["report", "colored"]) == 0
     assert (archive / "colored" / "report.html").read_text(encoding="utf-8") == before
+
+
+def test_a_scan_without_colors_has_its_reflectance_and_the_photos_that_were_tried(archive, batch):
+    for number, name in enumerate(("a.png", "b.png")):
+        write_png(archive / name, np.random.default_rng(number).integers(0, 256, (40, 60, 3)).astype(np.uint8))
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_0.ptx"\nphotos = "?.png"\n', encoding="utf-8")
+    assert batch()[0] == 0
+    page = (archive / "colored" / "report.html").read_text(encoding="utf-8")
+    assert page.count("data:image/jpeg;base64,") == 1 and 'aria-label="hall_0, before"' in page
+    assert 'aria-label="hall_0, after"' not in page
+    assert page.count("(evidence ") == 2 and "a.png: " in page and "b.png: " in page
+    assert page.count("four to six pairs") == 1
+    log = (archive / "colored" / "logs" / "hall_0.log").read_text(encoding="utf-8")
+    assert log.count("four to six pairs") == 1
 
 
 def test_a_name_that_is_markup_is_shown_as_text(tmp_path, monkeypatch):

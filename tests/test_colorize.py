@@ -213,6 +213,15 @@ def test_pixels_cut_off_from_every_seed_keep_their_gray_and_that_is_said():
     assert result.warnings == ("15 pixels are cut off from every seed and keep their gray; add seeds there",)
 
 
+def test_a_stray_return_that_no_seed_reaches_is_no_warning():
+    valid = np.ones((40, 60), bool)
+    valid[:3, :3] = False
+    valid[1, 1] = True
+    scan = random_scan(shape=(40, 60), valid=valid)
+    result = colorize(scan, Seeds([20], [30], [[250, 30, 30]]))
+    assert result.nearest_seed[1, 1] == -1 and result.warnings == ()
+
+
 def test_a_full_turn_is_joined_at_its_edges():
     # A wall of strong contrast stands in the middle; from edge to edge it is a step for nothing.
     reflectance = np.tile([0.0, 0, 0, 0, 1, 1, 0, 0, 0, 0], (4, 1))

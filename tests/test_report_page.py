@@ -15,7 +15,9 @@ pytestmark = [
     pytest.mark.skipif(os.name == "nt", reason="pipes of POSIX systems"),
 ]
 NAMES = ["hall_0", "hall_1", "hall_2", "hall_3"]
-SHOWN = "[...document.querySelectorAll('tbody tr')].filter(row => row.offsetHeight).map(row => row.cells[1].innerText)"
+SHOWN = (
+    "[...document.querySelectorAll('tbody tr')].filter(row => row.offsetHeight).map(row => row.cells[1].dataset.value)"
+)
 
 
 @pytest.fixture(scope="module")

@@ -54,7 +54,8 @@ def check_plan(plan, blender=None, *, refuse=_raise):
     -------
     Given
     """
-    if plan.seeds is None and plan.from_color is None and plan.colors is None and not plan.photos:
+    given = plan.seeds is not None or plan.from_color is not None or plan.colors is not None
+    if not (given or plan.photos or plan.skip_unshown):
         refuse(
             UsageError("--seeds or --photo: give seeds, or photos to find them in{inside}", inside=_inside(plan.scans))
         )

@@ -13,7 +13,7 @@ from ..color.colorizer import colorize
 from ..errors import ScanError, SeedsError
 from ..files.images import read_image
 from ..matching import grid_texture, match_site, shots_of, texture
-from ..messages import Message, about_scan
+from ..messages import Message, about_scan, value_of
 from ..progress import part
 from ..seeds.scan_colors import seeds_from_color
 from ..seeds.seeds import Seeds
@@ -24,7 +24,7 @@ from .plan import filled
 from .read import read_jobs
 from .scan_job import require_reflectance
 from .session import timed
-from .write import writing
+from .write import write_uncolored, writing
 
 
 def run_plan(plan, session):
@@ -62,17 +62,18 @@ def run_plan(plan, session):
     elif plan.seeds is None:
         # The time to find a file of seeds is not counted.
         del times["seeds"]
-        with timed(times, "match"):
-            find_seeds(
-                jobs,
-                plan.photos,
-                plan.settings,
-                registered=_registered(jobs, plan, session),
-                progress=session.progress,
-                cancelled=session.cancelled,
-            )
-        session.matchings += [job.matching for job in jobs]
-        _report_matching(jobs, session)
+        if plan.photos:
+            with timed(times, "match"):
+                find_seeds(
+                    jobs,
+                    plan.photos,
+                    plan.settings,
+                    registered=_registered(jobs, plan, session),
+                    progress=session.progress,
+                    cancelled=session.cancelled,
+                )
+            session.matchings |= {job.label: job.matching for job in jobs}
+            _report_matching(jobs, plan, session)
         jobs = _shown(jobs, plan, session)
     count = len(jobs)
     with writing(plan, jobs, session) as write:
@@ -120,9 +121,14 @@ def _take_colors(jobs, plan):
         )
 
 
-def _report_matching(jobs, session):
+def _report_matching(jobs, plan, session):
     for job in jobs:
-        session.warnings += _named(job, len(jobs), job.matching.warnings)
+        warnings = job.matching.warnings
+        if plan.skip_unshown and plan.hand is None:
+            # Most photos of an archive show other scans, which their notes say.
+            refused = {photo.name for photo in job.matching.photos if not photo.verified}
+            warnings = [line for line in warnings if value_of(line, "photo") not in refused]
+        session.warnings += _named(job, len(jobs), warnings)
         notes = [Message("{photo}: {note}", photo=photo.name, note=photo.note) for photo in job.matching.photos]
         for line in _named(job, len(jobs), notes):
             session.say(line)
@@ -143,16 +149,16 @@ def _registered(jobs, plan, session):
 
 def _shown(jobs, plan, session):
     """The jobs for which seeds were found; the others are left out if the plan has it so, else SeedsError is raised."""
-    shown = [job for job in jobs if len(job.seeds)]
-    for job in jobs:
-        if not len(job.seeds) and plan.skip_unshown:
-            session.left_out.append(job.label)
-        elif not len(job.seeds):
+    shown = [job for job in jobs if job.seeds is not None and len(job.seeds)]
+    for job in (job for job in jobs if job not in shown):
+        if not plan.skip_unshown:
             raise SeedsError(
                 "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs and find seeds with "
                 "--hand, or take guessed colors with --guess",
                 scan=job.name,
             )
+        session.left_out.append(job.label)
+        write_uncolored(plan, job)
     return shown
 
 

@@ -170,6 +170,6 @@ def distinct(names, *, joint=" ", key=str):
 
 
 def safe_label(name):
-    """Return a name as letters, digits, ``-``, ``_`` and inner dots, which any file system takes."""
-    label = re.sub(r"[^\w.-]", "_", unicodedata.normalize("NFC", name))
+    """Return a name as letters, digits, brackets, ``-``, ``_``, commas and inner dots, which any file system takes."""
+    label = re.sub(r"[^\w.,()[\]-]", "_", unicodedata.normalize("NFC", name))
     return label[:_LONGEST_LABEL].strip(".") or "scan"

@@ -38,8 +38,8 @@ class Session:
         a `ScanJob`; keeps what was found for the next time.
     written : list of Path
         The results that are there, whole; for the message when a later one fails.
-    matchings : list of Matching
-        How the seeds of each scan were found.
+    matchings : dict of str to Matching
+        How the seeds of each scan were found, by its label.
     left_out : list of str
         Labels of scans that no photo shows, and that were left out for it.
     warnings : list of str
@@ -53,7 +53,7 @@ class Session:
     blender: BlenderTasks | None = None
     registrations: Callable | None = None
     written: list[Path] = field(default_factory=list)
-    matchings: list[Matching] = field(default_factory=list)
+    matchings: dict[str, Matching] = field(default_factory=dict)
     left_out: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 

@@ -18,7 +18,7 @@ from ..report.report import (
     stamped,
     write_report,
 )
-from ..view.preview import preview
+from ..view.preview import preview, uncolored_preview
 from .paths import tracked
 from .plan import IMAGE, MATCHES, MESH, PREVIEW, RENDER, REPORT, SCANS, SCENE, SEEDS
 from .scan_job import surface_of
@@ -44,6 +44,13 @@ def writing(plan, jobs, session):
         writer.finish()
     for line in writer.lines:
         session.say(line)
+
+
+def write_uncolored(plan, job):
+    """Write the preview of a job that is left out because no photo shows it, where the plan asks for previews."""
+    for output in plan.outputs:
+        if output.kind == PREVIEW:
+            write_jpeg(output.of(job.label).path, uncolored_preview(job.opened()))
 
 
 class _Writer:

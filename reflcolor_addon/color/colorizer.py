@@ -21,6 +21,8 @@ from .spreader import HALF_CONFIDENCE_LEVELS, SPREAD, Spreader
 from .tone import tone_to_try
 
 _DEFAULT_MEMORY = 1 << 30
+# Share of the returns that no seed reaches from which that is worth a warning: a few stray returns never matter.
+_FEW_UNREACHED = 0.001
 # Share of the progress that is done when the colors are written.
 _JOINED = 0.98
 # Pixels between two checks for cancellation.
@@ -109,7 +111,7 @@ class Colorizer:
         colored = self.joined(spread, seeds, observed, cancelled=cancelled)
         progress(_JOINED, "Writing the colors")
         unreached = int(np.count_nonzero(self.scan.valid & ~colored.reached))
-        if unreached:
+        if unreached > _FEW_UNREACHED * np.count_nonzero(self.scan.valid):
             more.append(
                 Message(
                     "{count} pixels are cut off from every seed and keep their gray; add seeds there", count=unreached

@@ -1,4 +1,4 @@
-"""A small picture of a colorized scan: before, after, where the colors come from, and how sure they are."""
+"""A small picture of a scan: before, after, where the colors come from, and how sure they are."""
 
 import numpy as np
 
@@ -26,16 +26,35 @@ def preview(scan, colorization):
     (h, 4 w, 3) uint8
         sRGB.
     """
+    return _side_by_side(
+        scan,
+        [
+            _reflectance(scan),
+            colorization.rgb,
+            evidence(scan, colorization),
+            painted(np.where(scan.valid, colorization.confidence, np.nan).ravel(), "viridis", (0.0, 1.0)),
+        ],
+    )
+
+
+def uncolored_preview(scan):
+    """Return the first of these tiles, (h, w, 3) uint8, of a scan without colors."""
+    return _side_by_side(scan, [_reflectance(scan)])
+
+
+def _reflectance(scan):
+    gray = np.rint(normalize(scan.reflectance, scan.valid)[0]).astype(np.uint8)
+    return np.repeat(np.where(scan.valid, gray, 0)[..., None], 3, axis=-1)
+
+
+def _side_by_side(scan, tiles):
     import cv2
 
-    gray = np.rint(normalize(scan.reflectance, scan.valid)[0]).astype(np.uint8)
-    before = np.repeat(np.where(scan.valid, gray, 0)[..., None], 3, axis=-1)
-    confidence = painted(np.where(scan.valid, colorization.confidence, np.nan).ravel(), "viridis", (0.0, 1.0))
-    tiles = [before, colorization.rgb, evidence(scan, colorization), confidence.reshape(before.shape)]
     height, width = scan.shape[0], scan.shape[1] * scan.pixel_aspect
     scale = min(1.0, _LONGEST_SIDE / max(height, width))
     size = max(1, round(width * scale)), max(1, round(height * scale))
-    return np.hstack([cv2.resize(tile, size, interpolation=cv2.INTER_AREA) for tile in tiles])
+    tiles = [cv2.resize(tile.reshape(*scan.shape, 3), size, interpolation=cv2.INTER_AREA) for tile in tiles]
+    return np.hstack(tiles)
 
 
 def evidence(scan, colorization):

@@ -4,14 +4,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...errors import Cancelled, OutputError
+from ...messages import Message
 from ...seeds.seeds_file import photos_named
 from ..check import inputs_of
 from ..paths import files_of_each
 from ..plan import IMAGE, PLACEHOLDER, RENDER, Output
 from ..plan_document import as_document
-from .options import COLOR, ELSEWHERE, FAILED, KNOWN, UNSHOWN
-from .pairs import NO, UNTESTED, YES, write_pairs
-from .stage import remember_item, work_on
+from .options import COLOR, FAILED, KNOWN, UNSHOWN
+from .pairs_table import write_table
+from .stage import work_on
 from .workers import Task
 
 
@@ -26,17 +27,9 @@ def colorize_items(context, states, photos):
         The photos of the items that are offered those of the whole batch, by their names.
     """
     pieces = []
-    for state in states:
+    for number, state in enumerate(states):
+        context.session.progress(number / len(states), Message("Looking for changes: {name}", name=state.item.name))
         plan = color_plan(context, state.item, photos)
-        if plan.seeds is None and not plan.photos:
-            with context.folder.claimed(state.item.name) as mine:
-                if not mine:
-                    state.outcome = ELSEWHERE
-                    continue
-                state.outcome, state.left_out = UNSHOWN, [state.item.name]
-                context.done.forget(state.item.name, COLOR)
-                remember_item(context, state)
-            continue
         inputs = [path for _, path in inputs_of(plan, plan.scans)]
         for given in filter(None, (plan.seeds, plan.hand)):
             for path in files_of_each(given, plan.name):
@@ -55,13 +48,13 @@ def colorize_items(context, states, photos):
         work_on(context, COLOR, pieces)
     except Cancelled:
         # What was found so far is worth reading.
-        _write_table(context)
+        write_table(context)
         raise
     for state in states:
         if state.outcome == KNOWN and state.left_out and not _written(context, state):
             state.outcome = UNSHOWN
     try:
-        _write_table(context)
+        write_table(context)
     except OutputError as error:
         # A full disk costs scans, too, and these are told last.
         if not any(state.outcome == FAILED for state in states):
@@ -87,16 +80,3 @@ def color_plan(context, item, photos):
 def _written(context, state):
     record = context.done.recall(state.item.name, COLOR)
     return bool(record and record["outputs"])
-
-
-def _write_table(context):
-    """The table of pairs, of all items that are known by now."""
-    rows = []
-    for item in context.manifest.items:
-        record = context.done.recall(item.name, COLOR) if item.offered else None
-        for pair in (record or {}).get("photos") or []:
-            shows = YES if pair["verified"] else NO if pair["tested"] else UNTESTED
-            photo = context.manifest.photo_name(pair["path"])
-            rows.append((item.name, photo, shows, f"{pair['evidence']:.2f}", pair["note"]))
-    if any(item.offered for item in context.manifest.items):
-        write_pairs(context.folder.pairs, sorted(rows))

@@ -7,6 +7,7 @@ from ...errors import ReflcolorError
 from ..session import Session
 from .costs import Costs
 from .done import Done
+from .duplicates import Duplicates
 from .fingerprints import Fingerprints
 from .folder import BatchFolder
 from .manifest import Manifest
@@ -28,6 +29,7 @@ class Context:
     fingerprints : Fingerprints
     done : Done
     workers : Workers
+    same : Duplicates
     """
 
     manifest: Manifest
@@ -37,6 +39,7 @@ class Context:
     fingerprints: Fingerprints
     done: Done
     workers: Workers
+    same: Duplicates
 
     @property
     def folder(self) -> BatchFolder:
@@ -44,14 +47,8 @@ class Context:
         return self.manifest.folder
 
     def hashes(self, paths):
-        """Return the hash of each file by its path as text; nothing for one that cannot be read, as its reader says."""
-        found = {}
-        for path in paths:
-            try:
-                found[str(path)] = self.fingerprints.of(path, self.session.cancelled)
-            except ReflcolorError:
-                found[str(path)] = ""
-        return found
+        """Return the hash of each file by its path as text."""
+        return {str(path): hashed(self.fingerprints, path, self.session.cancelled) for path in paths}
 
     def work(self, tasks: list[Task], finished: Callable, what: str, begin: Callable = lambda task: True):
         """Run tasks and show their progress.
@@ -92,3 +89,11 @@ class Context:
 
         self.workers.work(tasks, counted, show, begun)
         self.session.progress(left.share(), f"{what} {done} of {count}")
+
+
+def hashed(fingerprints, path, cancelled):
+    """Return the hash of a file; an empty text where it cannot be read, as its reader says."""
+    try:
+        return fingerprints.of(path, cancelled)
+    except ReflcolorError:
+        return ""

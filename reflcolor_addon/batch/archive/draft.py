@@ -7,7 +7,7 @@ from pathlib import Path
 from ...errors import ReflcolorError, UsageError
 from ...files.images import IMAGE_SUFFIXES
 from ...files.readers import SCAN_SUFFIXES, text_cloud
-from ...report.archive import STATE
+from ...report.archive_entries import STATE
 from ..paths import scan_files
 
 _HEAD = """\

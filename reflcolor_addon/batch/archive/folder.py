@@ -11,7 +11,7 @@ from pathlib import Path
 from ...files.atomic import written_atomically
 from ...files.locks import try_lock
 from ...files.refusals import unwritable
-from ...report.archive import ITEMS, REPORTS, STATE
+from ...report.archive_entries import ITEMS, REPORTS, STATE
 from ...report.report import REPORT_OPTION
 from ..plan import PREVIEW, REPORT, Output
 

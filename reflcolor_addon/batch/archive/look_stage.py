@@ -25,8 +25,11 @@ def photos_of_items(context, items, known_pairs):
         could be taken, all of them: what is wrong is found out when the item is colorized.
     """
     scores, problems, unseen = {}, {}, set()
-    photos = {str(path): context.manifest.photo_name(path) for path in context.manifest.photos}
-    hashes = context.hashes(photos)
+    photos = {str(path): context.manifest.name_of(path) for path in context.manifest.photos}
+    hashes = {}
+    for number, (path, name) in enumerate(photos.items()):
+        context.session.progress(number / len(photos), Message("Reading photos: {name}", name=name))
+        hashes |= context.hashes([path])
 
     def known(item, shows):
         return [path for path, name in photos.items() if known_pairs.get((item.name, name)) is shows]

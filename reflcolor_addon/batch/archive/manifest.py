@@ -62,8 +62,8 @@ class Manifest:
         )
         return replace(self, photos=tuple(photos), items=tuple(items))
 
-    def photo_name(self, path):
-        """Return a photo's path as the manifest's folder sees it, with slashes; so the table of pairs names it."""
+    def name_of(self, path):
+        """Return a path as the manifest's folder sees it, with slashes; so tables and reports name photos and scans."""
         try:
             return Path(path).relative_to(self.path.parent).as_posix()
         except ValueError:

@@ -16,10 +16,10 @@ from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
 from ...view.fewer_faces import FEWEST_FACES, MOST_FACES
 from ..paths import files_of_each
 from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, default_settings, filled
-from ..read import distinct, safe_label
 from .folder import BatchFolder
 from .manifest import Item, Manifest
 from .manifest_table import ManifestTable, last_value
+from .names import item_names
 from .toml_lines import TomlLines
 
 FORMAT, VERSION = "reflcolor-batch", 1
@@ -141,6 +141,11 @@ class _Reader:
         except (OSError, ValueError):  # a null character, an empty pattern
             return []
 
+    def _seen(self, path):
+        """A path as it is seen from the manifest's folder, if it lies below that."""
+        folder = self._path.parent
+        return path.relative_to(folder) if path.is_relative_to(folder) else path
+
     def _items(self, pool):
         places = {}
         for at, path in self._files(self._whole, "scans", "scan") or []:
@@ -161,14 +166,11 @@ class _Reader:
             site = last_value(own, "site", str, None)
             key = ("site", site) if site else ("file", str(path))
             groups.setdefault(key, []).append((path, chain))
-        names = []
-        for (kind, key), members in groups.items():
-            path, chain = members[0]
-            stem = (
-                path.name.removesuffix("".join(path.suffixes[-2:])) if path.name.endswith(".scan.json") else path.stem
-            )
-            names.append(safe_label(key if kind == "site" else last_value(chain[1:], "name", str, None) or stem))
-        names = distinct(names, joint="_", key=str.casefold)
+        given = [
+            key if kind == "site" else last_value(members[0][1][1:], "name", str, None)
+            for (kind, key), members in groups.items()
+        ]
+        names = item_names(given, [self._seen(members[0][0]) for members in groups.values()])
         return [self._item(name, members, places, pool) for name, members in zip(names, groups.values(), strict=True)]
 
     def _scan_tables(self):

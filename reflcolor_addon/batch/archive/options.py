@@ -6,8 +6,10 @@ from .manifest import Item
 
 LOOK, COLOR, RENDERING = "look", "color", "render"
 STAGES = (LOOK, COLOR, RENDERING)
-DONE, FAILED, UNSHOWN, KNOWN, ELSEWHERE, OPEN = "done", "failed", "unshown", "known", "elsewhere", "open"
-"""What became of an item: done now; not done; no photo shows it; done before; another batch has it; not begun."""
+DONE, FAILED, UNSHOWN, KNOWN = "done", "failed", "unshown", "known"
+ELSEWHERE, DUPLICATE, OPEN = "elsewhere", "duplicate", "open"
+"""What became of an item: done now; not done; no photo shows it; done before; another batch has it; the same as another
+one; not begun."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,9 +63,15 @@ class State:
         Why it failed.
     left_out : list of str
         Scans of it that no photo shows.
+    photos : list of dict
+        What was found for each of its scans and photos; see `worker`.
+    same_as : str
+        The item that it is a duplicate of.
     """
 
     item: Item
     outcome: str = OPEN
     error: str = ""
     left_out: list[str] = field(default_factory=list)
+    photos: list[dict] = field(default_factory=list)
+    same_as: str = ""

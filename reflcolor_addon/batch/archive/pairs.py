@@ -9,7 +9,7 @@ from ...files.atomic import written_atomically
 from ...files.gate import contents
 
 COLUMNS = ("scan", "photo", "shows", "evidence", "note")
-YES, NO, UNTESTED = "yes", "no", "cannot be tested"
+YES, NO, UNTESTED, UNTRIED = "yes", "no", "cannot be tested", "not tried"
 _MOST_BYTES = 1 << 28
 
 

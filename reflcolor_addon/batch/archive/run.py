@@ -2,14 +2,18 @@
 
 from contextlib import ExitStack
 
-from ...report.archive import ITEMS
+from ...errors import Cancelled
+from ...messages import Message
+from ...report.archive_entries import ITEMS, SCANS
 from ...threads import thread_count
 from .color_stage import colorize_items
-from .context import Context
+from .context import Context, hashed
 from .done import Done
+from .duplicates import duplicates
 from .fingerprints import Fingerprints
 from .look_stage import photos_of_items
-from .options import COLOR, FAILED, KNOWN, LOOK, RENDERING, STAGES, State
+from .options import COLOR, DUPLICATE, FAILED, KNOWN, LOOK, RENDERING, STAGES, State
+from .pairs_table import write_table
 from .render_stage import render_items
 from .stage import remember_item
 from .workers import Workers
@@ -46,6 +50,9 @@ def run_batch(manifest, options, costs, known_pairs, session):
     with ExitStack() as stack:
         fingerprints = Fingerprints(manifest.folder)
         stack.callback(fingerprints.save)
+        session.progress(0.0, Message("Looking for files that are the same"))
+        same = duplicates(manifest, lambda path: hashed(fingerprints, path, session.cancelled))
+        photos = [path for path in manifest.photos if path not in same.photos]
         workers = Workers(
             count=options.workers,
             threads=max(1, thread_count() // options.workers),
@@ -54,26 +61,62 @@ def run_batch(manifest, options, costs, known_pairs, session):
             cancelled=session.cancelled,
         )
         context = Context(
-            manifest=manifest,
+            manifest=manifest.with_photos(photos),
             options=options,
             costs=costs,
             session=session,
             fingerprints=fingerprints,
             done=Done(manifest.folder, fingerprints),
             workers=stack.enter_context(workers),
+            same=same,
         )
-        photos = {}
-        if LOOK in options.stages or COLOR in options.stages:
-            # Which photos suit an item best is known only when all items have been compared.
-            items = manifest.items if COLOR in options.stages else [state.item for state in states]
-            photos = photos_of_items(context, [item for item in items if item.offered], known_pairs)
-        if COLOR in options.stages:
-            colorize_items(context, states, photos)
-        if RENDERING in options.stages:
-            render_items(context, states)
+        _remember_scans(context)
+        _report_duplicates(context)
+        _work(context, states, known_pairs)
         if set(options.stages) == set(STAGES):
             _correct_items(context, states)
     return states
+
+
+def _work(context, states, known_pairs):
+    """Do the stages that are asked for."""
+    stages, photos = context.options.stages, {}
+    for state in states:
+        if state.item.name in context.same.items:
+            state.outcome, state.same_as = DUPLICATE, context.same.items[state.item.name]
+            remember_item(context, state)
+    own = [state for state in states if state.outcome != DUPLICATE]
+    if LOOK in stages or COLOR in stages:
+        # Which photos suit an item best is known only when all items have been compared.
+        items = context.manifest.items if COLOR in stages else [state.item for state in own]
+        items = [item for item in items if item.offered and item.name not in context.same.items]
+        try:
+            photos = photos_of_items(context, items, known_pairs)
+        except Cancelled:
+            if COLOR in stages:
+                write_table(context)
+            raise
+    if COLOR in stages:
+        colorize_items(context, own, photos)
+    if RENDERING in stages:
+        render_items(context, own)
+
+
+def _remember_scans(context):
+    """Record which scans the batch has, so that its report names those, too, that were not begun."""
+    name_of = context.manifest.name_of
+    scans = {item.name: [name_of(path) for path in item.plan.scans] for item in context.manifest.items}
+    context.folder.remember("", SCANS, {"scans": scans})
+
+
+def _report_duplicates(context):
+    same, name_of = context.same, context.manifest.name_of
+    for path, first in same.photos.items():
+        context.session.say(
+            Message("{photo}: the same photo as {first}, so it is left out", photo=name_of(path), first=name_of(first))
+        )
+    for path, first in same.scans.items():
+        context.session.say(Message("{scan}: the same scan as {first}", scan=name_of(path), first=name_of(first)))
 
 
 def _correct_items(context, states):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ...errors import OutputError, ReflcolorError
 from ...failures import line_of
 from ...messages import Message
-from ...report.archive import ITEMS
+from ...report.archive_entries import ITEMS
 from .options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, State
 from .passing import may_pass
 
@@ -70,6 +70,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             return False
         count += 1
         state.left_out = outcome.get("left_out") or state.left_out
+        state.photos = outcome.get("photos") or state.photos
         if outcome["done"]:
             state.outcome = DONE if outcome["written"] or not state.left_out else UNSHOWN
         elif outcome.get("cancelled"):
@@ -102,7 +103,7 @@ def _is_known(context, stage, state, key, since=None):
     """Whether an item is already done; with ``since``, whether another batch has done it since then."""
     record = context.done.recall(state.item.name, stage, key, since)
     if record is not None:
-        state.outcome, state.left_out = KNOWN, record["left_out"] or []
+        state.outcome, state.left_out, state.photos = KNOWN, record["left_out"] or [], record["photos"] or []
     return record is not None
 
 
@@ -128,7 +129,9 @@ def _require_folder(context):
 
 def remember_item(context, state):
     """Record the outcome of an item, for the report of the whole batch; if that fails, the others go on."""
+    photos = [pair | {"photo": context.manifest.name_of(pair["path"])} for pair in state.photos]
     document = {"outcome": state.outcome, "error": state.error, "left_out": state.left_out}
+    document |= {"photos": photos, "same_as": state.same_as}
     try:
         context.folder.remember(ITEMS, state.item.name, document)
     except OutputError as error:
@@ -138,16 +141,19 @@ def remember_item(context, state):
 def _line(state, outcome, count, whole):
     said = {
         DONE: Message("done in {seconds:.0f} s", seconds=outcome.get("seconds", 0)),
-        UNSHOWN: Message("none of {tried} photos tried shows it for certain", tried=_tried(outcome)),
+        UNSHOWN: _unshown(len({pair["path"] for pair in outcome.get("photos") or ()})),
         FAILED: Message("failed: {problem}", problem=_bare(state.error)),
         OPEN: Message("interrupted"),
     }[state.outcome]
     return Message("{name}: {said} ({count} of {whole})", name=state.item.name, said=said, count=count, whole=whole)
 
 
-def _tried(outcome):
-    """How many photos an item was matched with."""
-    return len({pair["path"] for pair in outcome.get("photos") or ()})
+def _unshown(tried):
+    if tried == 0:
+        return Message("no photo looks like it")
+    if tried == 1:
+        return Message("the photo tried does not show it for certain")
+    return Message("none of {tried} photos tried shows it for certain", tried=tried)
 
 
 def _bare(text):

@@ -99,9 +99,9 @@ class _Worker:
         plan = from_document(request["plan"])
         outcome = self._outcome(lambda: run_plan(plan, session))
         photos = [
-            {"path": str(path), "verified": photo.verified, "tested": photo.tested}
+            {"scan": label, "path": str(path), "verified": photo.verified, "tested": photo.tested}
             | {"evidence": round(photo.evidence, 3), "note": str(photo.note)}
-            for matching in session.matchings
+            for label, matching in session.matchings.items()
             for path, photo in zip(plan.photos, matching.photos, strict=True)
         ]
         return outcome | {

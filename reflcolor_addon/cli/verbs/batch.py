@@ -11,7 +11,7 @@ from ...batch.archive.check import check_manifest
 from ...batch.archive.check_files import check_files
 from ...batch.archive.estimate import estimate
 from ...batch.archive.manifest_file import load_manifest
-from ...batch.archive.options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, Options
+from ...batch.archive.options import DONE, DUPLICATE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, Options
 from ...batch.archive.pairs import read_pairs
 from ...batch.archive.run import run_batch
 from ...errors import Cancelled, OutputError, ReflcolorError, UsageError
@@ -168,6 +168,8 @@ def _report_states(states, arguments, session):
             rest=count[OPEN],
         )
     )
+    if count[DUPLICATE]:
+        session.say(Message("{count} the same as another", count=count[DUPLICATE]))
     elsewhere = [state.item.name for state in states if state.outcome == ELSEWHERE]
     if elsewhere:
         session.warnings.append(

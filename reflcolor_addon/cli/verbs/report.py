@@ -4,7 +4,8 @@ from pathlib import Path
 
 from ...errors import ReflcolorError, UsageError
 from ...messages import Message
-from ...report.archive import REPORTS, write_page
+from ...report.archive import write_page
+from ...report.archive_entries import REPORTS
 
 NAME = "report"
 HELP = "make one page and one table of a batch"

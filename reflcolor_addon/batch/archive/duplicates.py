@@ -1,0 +1,73 @@
+"""Finds files of a batch that are the same, so that nothing is worked on twice."""
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from ..paths import scan_files
+from ..plan import PLACEHOLDER
+
+
+@dataclass(frozen=True, kw_only=True)
+class Duplicates:
+    """What is the same in a batch.
+
+    Parameters
+    ----------
+    photos : dict of Path to Path
+        For each photo that is the same, byte for byte, as an earlier one: that.
+    items : dict of str to str
+        For each item of the same scans and with the same plan as an earlier one: the name of that.
+    scans : dict of Path to Path
+        For each file of a scan that is the same as an earlier one: that. If its plan is another, it is worked on.
+    """
+
+    photos: dict[Path, Path] = field(default_factory=dict)
+    items: dict[str, str] = field(default_factory=dict)
+    scans: dict[Path, Path] = field(default_factory=dict)
+
+
+def duplicates(manifest, hash_of):
+    """Return the `Duplicates` of a manifest.
+
+    Parameters
+    ----------
+    manifest : Manifest
+    hash_of : callable
+        Returns the hash of a file as text, an empty one where it cannot be read. Only files of one size are hashed.
+    """
+    photos = _same({path: [path] for path in manifest.photos}, hash_of)
+    files = {path: scan_files(path) for item in manifest.items for path in item.plan.scans}
+    scans = _same(files, hash_of)
+    items, first = {}, {}
+    for item in manifest.items:
+        if PLACEHOLDER in f"{item.plan.seeds} {item.plan.hand}":
+            continue
+        own = tuple(scans.get(path, path) for path in item.plan.scans)
+        key = repr(replace(item.plan, scans=own, name=None))
+        if key in first:
+            items[item.name] = first[key]
+        first.setdefault(key, item.name)
+    return Duplicates(photos=photos, items=items, scans=scans)
+
+
+def _same(files, hash_of):
+    """For each key whose files are the same as those of an earlier one: that."""
+    by_size, same = {}, {}
+    for key, paths in files.items():
+        sizes = tuple(map(_size, paths))
+        if None not in sizes:
+            by_size.setdefault(sizes, []).append(key)
+    for keys in by_size.values():
+        first = {}
+        for key in keys if len(keys) > 1 else ():
+            hashes = tuple(hash_of(path) for path in files[key])
+            if all(hashes) and first.setdefault(hashes, key) != key:
+                same[key] = first[hashes]
+    return same
+
+
+def _size(path):
+    try:
+        return path.stat().st_size
+    except OSError:
+        return None

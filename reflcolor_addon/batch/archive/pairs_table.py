@@ -1,0 +1,66 @@
+"""The table of pairs of a batch: all that were tried, and all that were not."""
+
+from ...messages import Message
+from .options import COLOR
+from .pairs import NO, UNTESTED, UNTRIED, YES, write_pairs
+
+# A spreadsheet takes a million rows; of a larger archive only the pairs that were tried are listed.
+_MOST_ROWS = 100_000
+
+
+def write_table(context):
+    """Write the table of the items that are offered the photos of the whole batch, as far as is known by now.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    manifest = context.manifest
+    items = [item for item in manifest.items if item.offered]
+    if not items:
+        return
+    photos = {str(path): manifest.name_of(path) for path in (*manifest.photos, *context.same.photos)}
+    with_untried, rows, left_out = len(items) * len(photos) <= _MOST_ROWS, [], 0
+    for item in items:
+        record = context.done.recall(item.name, COLOR)
+        best = _best(record)
+        for path, photo in photos.items():
+            pair = best.get(path)
+            if pair is not None:
+                shows = YES if pair["verified"] else NO if pair["tested"] else UNTESTED
+                rows.append((item.name, photo, shows, f"{pair['evidence']:.2f}", pair["note"]))
+            elif with_untried:
+                rows.append((item.name, photo, UNTRIED, "", _why_untried(context, item, path, record)))
+            else:
+                left_out += 1
+    write_pairs(context.folder.pairs, sorted(rows))
+    if left_out:
+        context.session.say(
+            Message(
+                "pairs.csv lists the {count:,} pairs that were tried; the {left_out:,} others would be too many for it",
+                count=len(rows),
+                left_out=left_out,
+            )
+        )
+
+
+def _best(record):
+    """What was found for each photo, by its path; of several scans of an item the one that speaks most for it."""
+    best = {}
+    for pair in (record or {}).get("photos") or []:
+        known = best.get(pair["path"])
+        if known is None or (pair["verified"], pair["evidence"]) > (known["verified"], known["evidence"]):
+            best[pair["path"]] = pair
+    return best
+
+
+def _why_untried(context, item, path, record):
+    same = next((first for photo, first in context.same.photos.items() if str(photo) == path), None)
+    if same is not None:
+        return Message("the same file as {photo}", photo=context.manifest.name_of(same))
+    if item.name in context.same.items:
+        return Message("the same scan as {name}", name=context.same.items[item.name])
+    if record is None:
+        return Message("the scan was not matched yet")
+    return Message("the photo looked more like other scans")
