@@ -24,6 +24,7 @@ def render_items(context, states):
         colored = context.done.recall(state.item.name, COLOR)
         if colored is None or state.outcome in (FAILED, UNSHOWN):
             continue
+        state.photos = colored["photos"] or []
         plan = render_plan(context, state.item, colored["left_out"] or [])
         if plan is None:
             continue
