@@ -29,9 +29,10 @@ from benchmarks.geodesic_tables import ROOT
 from reflcolor_addon import Seeds
 from reflcolor_addon.errors import OutputError
 from reflcolor_addon.files import work_folder
-from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.images import write_jpeg, write_png
 from reflcolor_addon.files.whole import fault_of
 from reflcolor_addon.files.writers import write_e57, write_glb, write_ply, write_ptx
+from reflcolor_addon.files.writers.scans_back import ColoredScan, write_scans_back
 from reflcolor_addon.scan.scan import Scan
 from reflcolor_addon.scan.surface import ScanSurface
 
@@ -75,13 +76,23 @@ def _scan(number):
     return Scan(name="room", points=points, reflectance=strength, valid=np.ones((height, width), bool))
 
 
-def _writers():
-    """{suffix: a function of a path and 0 or 1 that writes one of two files}."""
+def _writers(folder):
+    """{end of the name: a function of a path and 0 or 1 that writes one of two files}."""
     scans = [_scan(number) for number in (0, 1)]
     chance = np.random.default_rng(7)
     colors = [chance.integers(0, 256, (*scan.shape, 3), np.uint8) for scan in scans]
     surfaces = [ScanSurface(scan, rgb) for scan, rgb in zip(scans, colors, strict=True)]
     seeds = [Seeds(np.arange(n) % 80, np.arange(n) % 100, chance.integers(0, 256, (n, 3))) for n in (3000, 4000)]
+    sources = folder / "sources"
+    sources.mkdir()
+    write_e57(scans[0], sources / "room.e57")
+    write_ptx(scans[0], sources / "room.ptx")
+
+    def back(path, number):
+        rgb = np.full((*_SHAPE, 3), 100 * number, np.uint8)
+        source = sources / f"room{path.suffix}"
+        write_scans_back([ColoredScan(scan=scans[0], rgb=rgb, source=source, index=1)], path)
+
     return {
         ".png": lambda path, number: write_png(path, colors[number]),
         ".ply": lambda path, number: write_ply([surfaces[number]], path),
@@ -89,6 +100,9 @@ def _writers():
         ".e57": lambda path, number: write_e57(scans[number], path),
         ".ptx": lambda path, number: write_ptx(scans[number], path),
         ".json": lambda path, number: seeds[number].save(path),
+        ".jpg": lambda path, number: write_jpeg(path, colors[number]),
+        "_colors.e57": back,
+        "_colors.ptx": back,
     }
 
 
@@ -128,7 +142,7 @@ def litter(folder):
 
 
 def _kill(folder, moments):
-    for suffix, write in _writers().items():
+    for suffix, write in _writers(folder).items():
         known = _contents(folder, suffix, write)
         path = folder / f"out{suffix}"
         write(path, 0)
@@ -151,7 +165,7 @@ def _kill(folder, moments):
                 bad.append(f"{suffix}, moment {moment}: neither the old nor the new file")
             if not _written(write, path, 0) or litter(folder):
                 bad.append(f"{suffix}, moment {moment}: the next run did not clean up: {len(litter(folder))} folders")
-        told = f"{suffix:<6} {moments} kills, {left} left a folder"
+        told = f"{suffix:<11} {moments} kills, {left} left a folder"
         yield told if bad else f"{told}, which the next run removed; the file was always one of the two, whole", bad
 
 
@@ -272,7 +286,7 @@ def _on_full_disk(folder, disk, suffix, options, scan):
         bad.append(f"{suffix}: status {done.returncode}, said {done.stderr[-300:]!r}")
     if path.read_bytes() != b"old and good" or litter(disk):
         bad.append(f"{suffix}: the old file is gone, or {litter(disk)} is left")
-    return f"{suffix:<6} {lines[-1] if lines else done.returncode}", bad
+    return f"{suffix:<11} {lines[-1] if lines else done.returncode}", bad
 
 
 def _folders(folder, moments):
@@ -286,7 +300,7 @@ def _folders(folder, moments):
             yield f"read-only: {done.stderr.strip()}", [] if one else [done.stderr[-300:]]
         else:
             yield "read-only: skipped: this user may not mount", []
-    for suffix, write in _writers().items():
+    for suffix, write in _writers(folder).items():
         bad, told = [], Counter()
         for moment in range(moments):
             place = folder / "vanishing"
@@ -313,11 +327,11 @@ def _folders(folder, moments):
             if status or not said or "\n" in said or place.exists():
                 bad.append(f"{suffix}, moment {moment}: status {status}, said {said!r}")
                 shutil.rmtree(place, ignore_errors=True)
-        yield f"{suffix:<6} vanishes at {moments} moments: {told['told in one line'] - len(bad)} told in one line", bad
+        yield f"{suffix:<11} vanishes at {moments} moments: {told['told in one line'] - len(bad)} told in one line", bad
 
 
 def _together(folder, _moments):
-    for suffix, write in _writers().items():
+    for suffix, write in _writers(folder).items():
         known = _contents(folder, suffix, write)
         path = folder / f"out{suffix}"
         write(path, 0)
@@ -340,7 +354,7 @@ def _together(folder, _moments):
         if litter(folder):
             bad.append(f"{suffix}: left {litter(folder)}")
         yield (
-            f"{suffix:<6} two writers for {_SECONDS_TOGETHER:.0f} s: looked at {looked} times, always one of the two",
+            f"{suffix:<11} two writers for {_SECONDS_TOGETHER:.0f} s: looked at {looked} times, always one of the two",
             bad,
         )
 
