@@ -28,7 +28,7 @@ def line_of(error):
     """
     if isinstance(error, ReflcolorError | UsageError):
         return error.message
-    if isinstance(error, MemoryError) or _is_opencv_out_of_memory(error):
+    if isinstance(error, MemoryError) or _is_opencv_out_of_memory(error) or _is_library_out_of_memory(error):
         return Message(NO_MEMORY)
     if isinstance(error, ImportError):
         return missing_package(error)
@@ -46,6 +46,11 @@ def _is_opencv_out_of_memory(error):
     # Looked up, not imported: an error of OpenCV can only occur if OpenCV was imported.
     opencv = sys.modules.get("cv2")
     return opencv is not None and isinstance(error, opencv.error) and error.code == _CV2_NO_MEMORY
+
+
+def _is_library_out_of_memory(error):
+    """Whether a native library could not be loaded for want of memory, in the words of the loader of Linux."""
+    return isinstance(error, ImportError) and str(error).endswith("failed to map segment from shared object")
 
 
 def _current_folder_is_gone():

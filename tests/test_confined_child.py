@@ -386,6 +386,14 @@ def test_without_any_python_the_way_out_is_named(scan_file, monkeypatch):
     assert "none was found beside Blender; export the scan as PTX" in failure(scan_file)
 
 
+def test_a_child_that_does_not_start_is_one_line(scan_file, monkeypatch):
+    def busy(*_, **__):
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(child.subprocess, "Popen", busy)
+    assert "did not start (Resource temporarily unavailable); close other programs" in failure(scan_file)
+
+
 def test_ctrl_c_reaches_only_the_parent(scan_file, stub):
     """A terminal sends it to all of a group; the child is in one of its own."""
     stub(READY + 'print(json.dumps({"error": str(os.getpgid(0) == os.getpid())}), flush=True)')

@@ -20,6 +20,7 @@ def insufficient_memory():
         (UsageError("give a file"), "give a file"),
         (MemoryError(), NO_MEMORY),
         (insufficient_memory(), NO_MEMORY),
+        (ImportError("x.so: failed to map segment from shared object", name="cv2"), NO_MEMORY),
         (ModuleNotFoundError("No module", name="cv2.x"), "OpenCV is missing"),
         (PermissionError(13, "Permission denied", "a.ptx"), "a.ptx: Permission denied"),
         (OSError(28, "No space left on device"), "the operating system reports: No space left on device"),

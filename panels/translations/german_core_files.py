@@ -24,6 +24,7 @@ _GATE = {
     "a part of its path is no folder; check how it is spelled": (
         "ein Teil des Pfads ist kein Ordner; die Schreibweise prüfen"
     ),
+    "close other programs": "andere Programme schließen",
     "ask its owner for the right to read it": "den Besitzer um das Recht bitten, sie zu lesen",
     "copy it to another folder, and name the copy": "sie in einen anderen Ordner kopieren und die Kopie nennen",
     "{file}: is too large, expected {expected}": "{file}: ist zu groß, erwartet {expected}",

@@ -38,6 +38,9 @@ _E57 = {
         "kann nicht gelesen werden: {kind} liest ein eigenes Python-Programm, und neben Blender ist keines zu finden; "
         "den Scan als PTX exportieren"
     ),
+    "cannot be read: the program that reads {kind} did not start ({detail}); close other programs": (
+        "kann nicht gelesen werden: das Programm für {kind} startete nicht ({detail}); andere Programme schließen"
+    ),
     "takes longer to read, or more memory, than its size explains; export it again, or as PTX": (
         "braucht zum Lesen mehr Zeit oder Speicher, als ihre Größe erklärt; neu exportieren, oder als PTX"
     ),

@@ -15,9 +15,12 @@ _TO_WRITE = {
     errno.EPERM: _NO_RIGHT,
     errno.EROFS: _NO_RIGHT,
 }
+_NO_MEMORY = Message("close other programs")
 _NO_RIGHT_TO_READ = Message("ask its owner for the right to read it")
 _TO_READ = {
     errno.ENAMETOOLONG: Message("no file has so long a name; check how it is spelled"),
+    errno.ENOMEM: _NO_MEMORY,
+    errno.ENOSPC: _NO_ROOM,
     errno.ELOOP: Message("its links lead in a circle; name the file itself"),
     errno.ENOTDIR: Message("a part of its path is no folder; check how it is spelled"),
     errno.EACCES: _NO_RIGHT_TO_READ,

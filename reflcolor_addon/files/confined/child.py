@@ -22,7 +22,7 @@ class ChildFailed(Exception):
 
     Parameters
     ----------
-    why : {"no python", "crashed", "killed", "stalled", "garbage"}
+    why : {"no python", "not started", "crashed", "killed", "stalled", "garbage"}
         "killed": by a limit on its time.
     detail : str
     """
@@ -59,7 +59,7 @@ class Child:
         try:
             self._process = subprocess.Popen([str(program), *ALONE, str(script)], **pipes, **options)
         except OSError as error:
-            raise ChildFailed("no python", error.strerror or str(error)) from error
+            raise ChildFailed("not started", error.strerror or str(error)) from error
         self._let_go = contextlib.ExitStack()
         if sys.platform == "win32":
             from .windows_job import limited

@@ -16,6 +16,7 @@ from .child import Child, ChildFailed
 _FAILURES = {
     "no python": "cannot be read: {kind} is read by a Python program of its own, and none was found beside Blender; "
     "export the scan as PTX",
+    "not started": "cannot be read: the program that reads {kind} did not start ({detail}); close other programs",
     "crashed": "what reads {kind} crashed on it; the file is damaged, or made to do harm; export it again",
     "killed": "takes longer to read, or more memory, than its size explains; export it again, or as PTX",
     "stalled": "was not read on for {detail}; see whether its disk answers, or export it again",
