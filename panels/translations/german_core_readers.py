@@ -295,12 +295,14 @@ _SETTLED = {
     "its points are in world coordinates already; its pose is not applied to them again": (
         "seine Punkte stehen schon in Weltkoordinaten; seine Lage wird nicht noch einmal angewandt"
     ),
-    "its points were not measured from the scanner; they are now, from {place}, {source}": (
-        "seine Punkte waren nicht vom Scanner aus gemessen; jetzt sind sie es, von {place}, {source}"
+    "its points were not measured from the scanner; it stood at {place}, as {source} shows, and ranges count from "
+    "there": (
+        "seine Punkte waren nicht vom Scanner aus gemessen; er stand bei {place}, wie {source} zeigt, und Entfernungen "
+        "zählen von dort"
     ),
-    "the position in its header": "dem Standpunkt in seinem Kopf",
-    "the point that its pixels without a return repeat": "dem Punkt, den seine Pixel ohne Messung wiederholen",
-    "from where its rows and columns are regular": "von wo aus seine Zeilen und Spalten regelmäßig sind",
+    "the position in its header": "der Standpunkt in seinem Kopf",
+    "the point that its pixels without a return repeat": "der Punkt, den seine Pixel ohne Messung wiederholen",
+    "the regularity of its rows and columns": "die Regelmäßigkeit seiner Zeilen und Spalten",
     "every point is more than {distance:,.0f} km from the scanner's origin: the file holds world coordinates, so "
     "ranges and orientation mean little; rows and columns stay as stored": (
         "jeder Punkt ist mehr als {distance:,.0f} km vom Ursprung des Scanners entfernt: die Datei enthält "

@@ -180,7 +180,8 @@ class Settled:
             return
         self._move(origin.place)
         self._warn(
-            "its points were not measured from the scanner; they are now, from {place}, {source}",
+            "its points were not measured from the scanner; it stood at {place}, as {source} shows, and ranges count from "
+            "there",
             place=numbers(origin.place),
             source=_SOURCES[kind],
         )
@@ -287,7 +288,7 @@ def scaled_by_pose(points, pose, valid, warn):
 _SOURCES = {
     "position": Message("the position in its header"),
     "repeated": Message("the point that its pixels without a return repeat"),
-    "fit": Message("from where its rows and columns are regular"),
+    "fit": Message("the regularity of its rows and columns"),
 }
 
 
