@@ -180,8 +180,8 @@ class Settled:
             return
         self._move(origin.place)
         self._warn(
-            "its points were not measured from the scanner; it stood at {place}, as {source} shows, and ranges count from "
-            "there",
+            "its points were not measured from the scanner; it stood at {place}, as {source} shows, and ranges count "
+            "from there",
             place=numbers(origin.place),
             source=_SOURCES[kind],
         )
