@@ -16,6 +16,7 @@ from reflcolor_addon.batch.archive.names import item_names
 from reflcolor_addon.batch.archive.pairs import read_pairs
 from reflcolor_addon.errors import UsageError
 from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.readers import ReadOptions
 from reflcolor_addon.files.writers import write_ptx
 
 
@@ -58,6 +59,25 @@ def test_patterns_defaults_and_what_one_scan_has_of_its_own(folder):
     assert first.plan.settings.beta != 0 == tower.plan.settings.beta
     written = [output.of(tower.name).path for output in tower.plan.outputs if output.option == "write"]
     assert written == [folder / "colored" / "tower.ply"]
+
+
+def test_how_scans_are_read_is_told_for_all_or_for_one(folder):
+    text = (
+        HEAD + 'scans = "hall_?.ptx"\nphotos = "photos/a.png"\nreading = { step = 2 }\n[[scan]]\nfile = "hall_1.ptx"\n'
+    )
+    manifest, faults = read(folder, text + 'reading = { grid = "angle", position = [1, 2, 3] }\n')
+    assert faults == []
+    first, other, _ = (item.plan.reading for item in manifest.items)
+    assert first == ReadOptions(step=2)
+    assert other == ReadOptions(step=2, grid="angle", position=(1.0, 2.0, 3.0))
+    _, faults = read(folder, text + 'reading = { stp = 2, grid = "round", step = "2", position = [1] }\n')
+    assert [fault.partition(": reading: ")[2].partition(" ")[0] for fault in faults] == [
+        "unknown",
+        "grid:",
+        "step:",
+        "position:",
+    ]
+    assert all(fault.startswith("line 9: ") for fault in faults)
 
 
 def test_scans_of_one_site_are_one_item(folder):

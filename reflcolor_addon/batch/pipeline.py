@@ -26,6 +26,9 @@ from .scan_job import require_reflectance
 from .session import timed
 from .write import write_uncolored, writing
 
+# Where reading and matching begin, and which share of a run they are, roughly; the rest is coloring and writing.
+_READING, _MATCHING = (0.0, 0.1), (0.1, 0.7)
+
 
 def run_plan(plan, session):
     """Do all that a plan asks for.
@@ -49,6 +52,7 @@ def run_plan(plan, session):
     with timed(times, "seeds"):
         given = check_plan(plan, session.blender)
     session.warnings += given.warnings
+    session.span = _READING
     jobs = read_jobs(plan, given, session, times)
     for job in jobs:
         session.warnings += job.scan.warnings
@@ -63,6 +67,7 @@ def run_plan(plan, session):
         # The time to find a file of seeds is not counted.
         del times["seeds"]
         if plan.photos:
+            session.span = _MATCHING
             with timed(times, "match"):
                 find_seeds(
                     jobs,
@@ -75,7 +80,8 @@ def run_plan(plan, session):
             session.matchings |= {job.label: job.matching for job in jobs}
             _report_matching(jobs, plan, session)
         jobs = _shown(jobs, plan, session)
-    count = len(jobs)
+    count, begin = len(jobs), sum(session.span)
+    session.span = begin, 1.0 - begin
     with writing(plan, jobs, session) as write:
         for number in range(count):
             job = jobs.pop(0)

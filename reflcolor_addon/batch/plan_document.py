@@ -34,9 +34,6 @@ def as_document(plan):
 
 def from_document(document):
     """Return the `Plan` that `as_document` described."""
-    reading = document["reading"]
-    if reading.get("position") is not None:
-        reading = reading | {"position": tuple(reading["position"])}
     return Plan(
         scans=tuple(map(Path, document["scans"])),
         outputs=tuple(Output(option, Path(path), kind) for option, path, kind in document["outputs"]),
@@ -49,10 +46,17 @@ def from_document(document):
         colors=None if document["colors"] is None else Path(document["colors"]),
         from_color=document["from_color"],
         outside_files=document["outside_files"],
-        reading=ReadOptions(**reading),
+        reading=reading_of(document["reading"]),
         texture=document["texture"],
         faces=document["faces"],
         picture=Picture(**document["picture"]),
         left_out=tuple(document["left_out"]),
         skip_unshown=document["skip_unshown"],
     )
+
+
+def reading_of(document):
+    """Return the `ReadOptions` of a dictionary."""
+    if document.get("position") is not None:
+        document = document | {"position": tuple(document["position"])}
+    return ReadOptions(**document)

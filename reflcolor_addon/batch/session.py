@@ -42,6 +42,8 @@ class Session:
         How the seeds of each scan were found, by its label.
     left_out : list of str
         Labels of scans that no photo shows, and that were left out for it.
+    span : (float, float)
+        Where the step at work begins, and which share of the whole it is, for the progress that is shown.
     warnings : list of str
         What is to be said at the end, before the error where there is one.
     """
@@ -56,6 +58,7 @@ class Session:
     matchings: dict[str, Matching] = field(default_factory=dict)
     left_out: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+    span: tuple[float, float] = (0.0, 1.0)
 
     @property
     def blender_version(self):
@@ -72,7 +75,8 @@ class Session:
         """
         if self.cancelled():
             raise Cancelled
-        self.show(fraction, text)
+        begin, share = self.span
+        self.show(begin + share * fraction, text)
 
     def read_scans(self, path, *, outside=False, options=AS_IT_IS):
         """Read all scans of a file, with progress; ``outside`` and ``options`` as in `read_scans`."""

@@ -34,12 +34,14 @@ def check_files(manifest, items, refuse, *, decode, progress):
 
     def look(path, line, act):
         nonlocal done
-        progress(done / count, Message("Checking {name}", name=path.name))
+        name = manifest.name_of(path)
+        progress(done / count, Message("Checking {name}", name=name))
         done += 1
         try:
             return act()
         except (ReflcolorError, UsageError) as error:
-            refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=line, problem=error.message))
+            problem = _naming(error.message, path, name)
+            refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=line, problem=problem))
             return None
 
     for path, (line, plan) in scans.items():
@@ -51,3 +53,10 @@ def check_files(manifest, items, refuse, *, decode, progress):
         if size is not None:
             found.photos[path] = size[0] * size[1]
     return found
+
+
+def _naming(message, path, name):
+    """A message about a file, with the folders before its name: an archive has many files of one name."""
+    if message.values.get("file") != path.name:
+        return message
+    return Message(message.template, **message.values | {"file": name})

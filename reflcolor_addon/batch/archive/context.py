@@ -65,8 +65,8 @@ class Context:
 
         def show(running):
             share = sum(task.cost * fraction for task, fraction, _ in running)
-            parts = [f"{what} {done} of {count}", left.text(share)]
-            parts += [f"{task.name}: {text}" for task, _, text in running]
+            parts = [f"{what} {done} of {count}", left.text(share) if done else ""]
+            parts += [f"{task.name}: {text}" for task, _, text in running if text]
             self.session.progress(left.share(share), "; ".join(filter(None, parts)))
 
         def counted(task, outcome):

@@ -27,6 +27,9 @@ write = ["png", "glb"]
 # A rendered picture of each scan; needs Blender.
 render = false
 
+# How scans are read: every second row and column of large ones (step); a grid laid over points that have none (grid).
+# reading = {{ step = 2, grid = "angle" }}
+
 # Light meshes, of so many triangles at most for each scan; needs Blender.
 # faces = 200000
 """

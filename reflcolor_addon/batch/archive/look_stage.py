@@ -78,6 +78,7 @@ def _task(context, item, photos, hashes):
             "do": "look",
             "folder": str(context.folder.root),
             "scans": scans,
+            "reading": item.plan.reading.as_dict(),
             "photos": photos,
             "hashes": context.hashes(scans) | {path: hashes[path] for path in photos},
         },

@@ -7,6 +7,7 @@ from ...files.images import read_image, write_png
 from ...files.readers import read_scans
 from ...matching.photo_image import PhotoImage
 from ...matching.registration.registration import ScanViews
+from ..plan_document import reading_of
 from .fingerprints import digest_of, program_digest
 from .first_look import first_look
 from .folder import BatchFolder
@@ -21,7 +22,7 @@ def look_at(request, *, progress, cancelled):
     Parameters
     ----------
     request : dict
-        ``folder`` of the batch, ``scans``, ``photos``, and ``hashes`` of them all.
+        ``folder`` of the batch, ``scans``, how they are read (``reading``), ``photos``, and ``hashes`` of them all.
     progress, cancelled : callable
 
     Returns
@@ -33,11 +34,11 @@ def look_at(request, *, progress, cancelled):
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
     scans = [hashes[path] for path in request["scans"]]
     # Files that could not be hashed cannot be told from one another: nothing is kept about them.
-    key = digest_of([program_digest(), *scans]) if all(scans) else None
+    key = digest_of([program_digest(), request["reading"], *scans]) if all(scans) else None
     known = (key and folder.recall(KIND, key)) or {}
     scores = {path: known[hashes[path]] for path in request["photos"] if hashes[path] in known}
     problems, missing = {}, [path for path in request["photos"] if path not in scores]
-    views = _views(request["scans"], progress, cancelled) if missing else []
+    views = _views(request, progress, cancelled) if missing else []
 
     def step():
         if cancelled():
@@ -61,10 +62,11 @@ def look_at(request, *, progress, cancelled):
     return {"scores": scores, "problems": problems}
 
 
-def _views(paths, progress, cancelled):
-    views = []
-    for path in paths:
-        views += [ScanViews(scan) for scan in read_scans(path, progress=progress, cancelled=cancelled)]
+def _views(request, progress, cancelled):
+    views, options = [], reading_of(request["reading"])
+    for path in request["scans"]:
+        scans = read_scans(path, options=options, progress=progress, cancelled=cancelled)
+        views += [ScanViews(scan) for scan in scans]
     return [own for own in views if own.scan.valid.any()]
 
 

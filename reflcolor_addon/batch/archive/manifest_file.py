@@ -11,6 +11,7 @@ from pathlib import Path
 from ...errors import SettingsError, UsageError
 from ...files.gate import contents
 from ...files.images import IMAGE_SUFFIXES
+from ...files.readers.options import AS_IT_IS
 from ...messages import Message
 from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
 from ...view.fewer_faces import FEWEST_FACES, MOST_FACES
@@ -26,7 +27,8 @@ FORMAT, VERSION = "reflcolor-batch", 1
 _MOST_BYTES = 64 << 20
 _RESULTS = tuple(suffix.removeprefix(".") for suffix in RESULT_SUFFIXES)
 _OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
-_OF_EACH = ("write", "render", "faces", "preset", "settings", "seeds")
+_OF_EACH = ("write", "render", "faces", "preset", "settings", "reading", "seeds")
+_TABLES = ("settings", "reading")
 _OF_ONE = ("file", "name", "site", "scan", "photos", "hand", "skip")
 _OF_SITE = (*_OF_EACH, "photos", "hand")
 
@@ -207,6 +209,7 @@ class _Reader:
             hand=hand,
             photos=tuple(photos),
             settings=self._settings(chain),
+            reading=self._reading(chain),
             outputs=outputs,
             faces=self._faces(chain),
         )
@@ -224,7 +227,7 @@ class _Reader:
             # What counts for each scan: the last table that has it; settings add up.
             chains = [[table for table in chain[1:] if key in table] for _, chain in members]
             values = [[table[key] for table in chain] for chain in chains if chain]
-            values = [_merged(own) if key == "settings" else own[-1] for own in values]
+            values = [_merged(own) if key in _TABLES else own[-1] for own in values]
             tables_of_key = [chain[-1] for chain in chains if chain]
             for table, value in zip(tables_of_key, values, strict=True):
                 if value != values[0]:
@@ -303,6 +306,17 @@ class _Reader:
             for key, value in table.get("settings", dict, {}).items():
                 settings = self._with_setting(table, settings, key, value)
         return settings
+
+    def _reading(self, chain):
+        """How the scans of an item are read."""
+        options = AS_IT_IS
+        for table in chain:
+            for key, value in table.get("reading", dict, {}).items():
+                try:
+                    options = options.with_option(key, value)
+                except UsageError as error:
+                    table.refuse(("reading", key), "reading: {problem}", problem=error.message)
+        return options
 
     def _with_setting(self, table, settings, key, value):
         if key not in SETTINGS:

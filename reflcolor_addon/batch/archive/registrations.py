@@ -1,5 +1,6 @@
 """Stores which photo shows which scan, and from where, so that no pair is matched twice."""
 
+from ...files.readers.options import AS_IT_IS
 from ...matching.registration.stored import as_document, from_document
 from .fingerprints import digest_of, program_digest
 
@@ -14,10 +15,12 @@ class Registrations:
     folder : BatchFolder
     hashes : dict of str to str
         The hash of every scan's and photo's file, by its path as text.
+    reading : ReadOptions
+        How the scans are read.
     """
 
-    def __init__(self, folder, hashes):
-        self._folder, self._hashes = folder, hashes
+    def __init__(self, folder, hashes, reading=AS_IT_IS):
+        self._folder, self._hashes, self._reading = folder, hashes, reading.as_dict()
 
     def __call__(self, job, photo, register):
         """Return the `Registration` of a photo on a scan; ``register()`` finds it where it is not known yet."""
@@ -25,7 +28,7 @@ class Registrations:
         if not (own and other):
             # Files that could not be hashed cannot be told from one another.
             return register()
-        key = digest_of([program_digest(), own, job.index, other])
+        key = digest_of([program_digest(), own, self._reading, job.index, other])
         known = self._folder.recall(KIND, key)
         if known is not None:
             try:

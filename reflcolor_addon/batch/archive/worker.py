@@ -49,7 +49,7 @@ class _Worker:
         self._outer = session
         self._requests, self._more = [], threading.Condition()
         self._ended = False
-        self._shown_at = 0.0
+        self._shown_at, self._furthest = 0.0, 0.0
 
     def listen(self, lines):
         for line in lines:
@@ -77,9 +77,11 @@ class _Worker:
         return self._ended or self._outer.cancelled()
 
     def show(self, fraction, text):
+        # Every file that is written begins at 0 again.
+        self._furthest = max(self._furthest, fraction)
         if time.monotonic() - self._shown_at >= _SHOW_EVERY_S:
             self._shown_at = time.monotonic()
-            self.answer({"progress": fraction, "text": str(text)})
+            self.answer({"progress": self._furthest, "text": str(text)})
 
     def answer(self, document):
         sys.stdout.write(f"{MARK}{json.dumps(document)}\n")
@@ -88,15 +90,14 @@ class _Worker:
     def run(self, request):
         """Do one item of a batch."""
         limit_threads(request["threads"])
-        lines = []
+        lines, plan = [], from_document(request["plan"])
         session = Session(
             say=lambda line: lines.append(str(line)),
             show=self.show,
             cancelled=self.cancelled,
             blender=self._outer.blender,
-            registrations=Registrations(BatchFolder(Path(request["folder"])), request["hashes"]),
+            registrations=Registrations(BatchFolder(Path(request["folder"])), request["hashes"], plan.reading),
         )
-        plan = from_document(request["plan"])
         outcome = self._outcome(lambda: run_plan(plan, session))
         photos = [
             {"scan": label, "path": str(path), "verified": photo.verified, "tested": photo.tested}
@@ -123,6 +124,7 @@ class _Worker:
         return self._outcome(act) | {"found": found}
 
     def _outcome(self, act):
+        self._furthest = 0.0
         start = time.perf_counter()
         try:
             act()

@@ -1,6 +1,6 @@
 """How to read a scan file, where the user knows better than the file."""
 
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 
 from ...errors import UsageError
 
@@ -73,6 +73,27 @@ class ReadOptions:
                 )
         if self.step < 1:
             raise UsageError("step: expected a whole number of at least 1, found {found}", found=self.step)
+
+    def with_option(self, name, value):
+        """Return the same with one option of another value, as a file of text states it.
+
+        Raises
+        ------
+        UsageError
+            If there is no such option, or the value is none of it.
+        """
+        kinds = {field.name: type(field.default) for field in fields(self)}
+        if name not in kinds:
+            raise UsageError("unknown option {name}; expected one of {known}", name=name, known=", ".join(kinds))
+        if name == "position":
+            numbers = value if isinstance(value, list) else []
+            if len(numbers) != 3 or not all(isinstance(each, int | float) and abs(each) < 1e9 for each in numbers):
+                raise UsageError("position: expected three numbers, found {found}", found=value)
+            value = tuple(map(float, numbers))
+        elif type(value) is not kinds[name]:
+            expected = {int: "a whole number", bool: "true or false", str: "a text in quotes"}[kinds[name]]
+            raise UsageError("{name}: expected {expected}, found {found}", name=name, expected=expected, found=value)
+        return replace(self, **{name: value})
 
     def pixels_kept(self, pixels):
         """Return how many pixels are left of scans with so many; a grid by angle has about one for each point."""
