@@ -14,7 +14,9 @@ from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.plan import IMAGE, Output, Plan
 from reflcolor_addon.batch.plan_document import as_document, from_document
 from reflcolor_addon.batch.read import safe_label
+from reflcolor_addon.batch.session import Session
 from reflcolor_addon.cli.main import main
+from reflcolor_addon.cli.verbs.batch import _plain_lines
 from reflcolor_addon.files.images import write_jpeg, write_png
 from reflcolor_addon.files.readers.options import ReadOptions
 from reflcolor_addon.files.writers import write_ptx
@@ -108,21 +110,21 @@ def test_what_is_there_twice_is_worked_on_once_and_told(archive, batch):
     (archive / "batch.toml").write_text(HEAD + 'scans = ["hall_0.ptx", "b.ptx"]\nphotos = "a*.png"\n', encoding="utf-8")
     status, out, _ = batch()
     assert status == 0
-    assert "a.png: the same photo as a (copy).png, so it is left out\n" in out
-    assert "b.ptx: the same scan as hall_0.ptx\n" in out
-    assert "hall_0: the photo tried does not show it for certain (1 of 1)" in out and "1 the same as another" in out
+    assert "a (copy).png: the same photo as a.png, so it is left out\n" in out
+    assert "hall_0.ptx: the same scan as b.ptx\n" in out
+    assert "b: the photo tried does not show it for certain (1 of 1)" in out and "1 the same as another" in out
     with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
         notes = {
             (row["scan"], row["photo"]): row["note"] for row in csv.DictReader(file) if row["shows"] == "not tried"
         }
     assert notes == {
-        ("b", "a (copy).png"): "the same scan as hall_0",
-        ("b", "a.png"): "the same file as a (copy).png",
-        ("hall_0", "a.png"): "the same file as a (copy).png",
+        ("b", "a (copy).png"): "the same file as a.png",
+        ("hall_0", "a (copy).png"): "the same file as a.png",
+        ("hall_0", "a.png"): "the same scan as b",
     }
-    row = table_of(archive)["b"]
-    assert (row["state"], row["file"]) == ("duplicate", "b.ptx")
-    assert row["note"] == "the same as hall_0, whose results are its own, too"
+    row = table_of(archive)["hall_0"]
+    assert (row["state"], row["file"]) == ("duplicate", "hall_0.ptx")
+    assert row["note"] == "the same as b, whose results are its own, too"
 
 
 def test_the_same_scan_with_other_settings_is_worked_on(archive, batch):
@@ -139,9 +141,13 @@ def test_the_estimate_rests_on_the_sizes_in_the_headers(archive, batch):
     assert "scans: 3, about 2.0 megapixels together" in batch("--check")[1]
 
 
-def test_progress_is_told_in_lines_where_there_is_no_terminal(archive, batch):
-    _, out, _ = batch()
-    assert " 30%  Checking hall_1.ptx\n" in out and "\n100%  Colorized " in out
+def test_progress_is_told_in_lines_where_there_is_no_terminal():
+    said, clock = [], [0.0]
+    show = _plain_lines(Session(say=said.append), now=lambda: clock[0])
+    for seconds, fraction in ((1, 0.1), (6, 0.15), (9, 0.3), (12, 0.35), (20, 0.38), (30, 1.0), (31, 0.0), (40, 0.2)):
+        clock[0] = seconds
+        show(fraction, "at work")
+    assert said == [" 10%  at work", " 30%  at work", "100%  at work", " 20%  at work"]
 
 
 def test_progress_for_an_engine_of_a_render_farm(archive, batch):

@@ -1,7 +1,7 @@
 """What all stages of a batch have in common."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...errors import ReflcolorError
 from ..session import Session
@@ -30,6 +30,8 @@ class Context:
     done : Done
     workers : Workers
     same : Duplicates
+    problems : dict of str to str
+        Why photos cannot be used, by their paths, as far as that was found.
     """
 
     manifest: Manifest
@@ -40,6 +42,7 @@ class Context:
     done: Done
     workers: Workers
     same: Duplicates
+    problems: dict[str, str] = field(default_factory=dict)
 
     @property
     def folder(self) -> BatchFolder:

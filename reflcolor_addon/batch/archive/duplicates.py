@@ -14,11 +14,11 @@ class Duplicates:
     Parameters
     ----------
     photos : dict of Path to Path
-        For each photo that is the same, byte for byte, as an earlier one: that.
+        For each photo that is the same, byte for byte, as another one: that.
     items : dict of str to str
-        For each item of the same scans and with the same plan as an earlier one: the name of that.
+        For each item of the same scans and with the same plan as another one: the name of that.
     scans : dict of Path to Path
-        For each file of a scan that is the same as an earlier one: that. If its plan is another, it is worked on.
+        For each file of a scan that is the same as another one: that. If its plan is another, it is worked on.
     """
 
     photos: dict[Path, Path] = field(default_factory=dict)
@@ -39,7 +39,7 @@ def duplicates(manifest, hash_of):
     files = {path: scan_files(path) for item in manifest.items for path in item.plan.scans}
     scans = _same(files, hash_of)
     items, first = {}, {}
-    for item in manifest.items:
+    for item in sorted(manifest.items, key=lambda item: _length(item.plan.scans[0])):
         if PLACEHOLDER in f"{item.plan.seeds} {item.plan.hand}":
             continue
         own = tuple(scans.get(path, path) for path in item.plan.scans)
@@ -51,7 +51,7 @@ def duplicates(manifest, hash_of):
 
 
 def _same(files, hash_of):
-    """For each key whose files are the same as those of an earlier one: that."""
+    """For each path whose files are the same as those of another one: that with the shortest name, not "a (copy)"."""
     by_size, same = {}, {}
     for key, paths in files.items():
         sizes = tuple(map(_size, paths))
@@ -59,11 +59,15 @@ def _same(files, hash_of):
             by_size.setdefault(sizes, []).append(key)
     for keys in by_size.values():
         first = {}
-        for key in keys if len(keys) > 1 else ():
+        for key in sorted(keys, key=_length) if len(keys) > 1 else ():
             hashes = tuple(hash_of(path) for path in files[key])
             if all(hashes) and first.setdefault(hashes, key) != key:
                 same[key] = first[hashes]
     return same
+
+
+def _length(path):
+    return len(path.name), len(str(path))
 
 
 def _size(path):

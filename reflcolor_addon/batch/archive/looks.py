@@ -14,6 +14,8 @@ from .folder import BatchFolder
 
 KIND = "looks"
 _SKETCH_SIDE = 640
+# Share of the progress that is done when the scans are read.
+_READING = 0.2
 
 
 def look_at(request, *, progress, cancelled):
@@ -47,7 +49,7 @@ def look_at(request, *, progress, cancelled):
     try:
         for number, path in enumerate(missing):
             step()
-            progress(number / len(missing), Path(path).name)
+            progress(_READING + (1 - _READING) * number / len(missing), Path(path).name)
             try:
                 photo = PhotoImage(Path(path).name, _sketch(folder, path, hashes[path]))
             except ReflcolorError as error:
@@ -64,8 +66,12 @@ def look_at(request, *, progress, cancelled):
 
 def _views(request, progress, cancelled):
     views, options = [], reading_of(request["reading"])
+
+    def reading(fraction, text):
+        progress(_READING * fraction, text)
+
     for path in request["scans"]:
-        scans = read_scans(path, options=options, progress=progress, cancelled=cancelled)
+        scans = read_scans(path, options=options, progress=reading, cancelled=cancelled)
         views += [ScanViews(scan) for scan in scans]
     return [own for own in views if own.scan.valid.any()]
 

@@ -1,7 +1,8 @@
 """The table of pairs of a batch: all that were tried, and all that were not."""
 
 from ...messages import Message
-from .options import COLOR
+from ...report.archive_entries import ITEMS
+from .options import COLOR, FAILED
 from .pairs import NO, UNTESTED, UNTRIED, YES, write_pairs
 
 # A spreadsheet takes a million rows; of a larger archive only the pairs that were tried are listed.
@@ -61,6 +62,9 @@ def _why_untried(context, item, path, record):
         return Message("the same file as {photo}", photo=context.manifest.name_of(same))
     if item.name in context.same.items:
         return Message("the same scan as {name}", name=context.same.items[item.name])
+    if path in context.problems:
+        return context.problems[path]
     if record is None:
-        return Message("the scan was not matched yet")
+        failed = (context.folder.recall(ITEMS, item.name) or {}).get("outcome") == FAILED
+        return Message("the scan failed") if failed else Message("the scan was not matched yet")
     return Message("the photo looked more like other scans")

@@ -3,6 +3,7 @@
 import argparse
 import re
 import sys
+import time
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -25,6 +26,7 @@ HELP = "color all scans of an archive, as a manifest says"
 _GIGABYTE = 1 << 30
 # Share of the free memory that a batch takes by default.
 _SHARE = 0.8
+_LINE_EVERY_S = 5.0
 
 
 def add_arguments(parser):
@@ -208,15 +210,18 @@ def _openjd(session):
     return show
 
 
-def _plain_lines(session):
-    """Progress where there is no terminal: a line for each tenth of a stage."""
-    printed = 0
+def _plain_lines(session, now=time.monotonic):
+    """Progress where there is no terminal: a line for each tenth of a stage, unless they follow each other at once."""
+    printed, last = 0, now()
 
     def show(fraction, text):
-        nonlocal printed
+        nonlocal printed, last
         tenth = int(10 * fraction)
+        if tenth > printed and now() - last < _LINE_EVERY_S:
+            return
         if tenth > printed:
             session.say(f"{10 * tenth:3d}%  {text}")
+            last = now()
         printed = tenth
 
     return show
