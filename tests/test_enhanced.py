@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from small_scans import random_scan
 
+from benchmarks.experiments.cases import EXAMPLES
 from benchmarks.quality.scenes import load, perfect_seeds
 from reflcolor_addon import Cancelled, Colorizer, Seeds, Settings, colorize
 from reflcolor_addon.color.evaluation import error_map, evaluate, with_luminance_of
+from reflcolor_addon.settings import PRESETS
 
 ENHANCED = Settings.preset("Enhanced")
 
@@ -69,6 +71,30 @@ def test_the_same_input_gives_the_same_bytes_anew_or_at_once_and_with_any_number
     results.append(Colorizer(scan, settings, threads=1).colorize(seeds))
     assert len({result.rgb.tobytes() for result in results}) == 1
     assert len({result.confidence.tobytes() for result in results}) == 1
+
+
+def test_seeds_of_a_person_give_the_same_bytes_anew_or_at_once_and_with_any_number_of_threads(monkeypatch):
+    scan = random_scan(shape=(14, 17))
+    seeds = seeds_of(scan)
+    evenly = colorize(scan, seeds, ENHANCED)
+    monkeypatch.setattr("reflcolor_addon.color.spreader.picked_by_a_person", lambda *_: 0.7)
+    colorizer = Colorizer(scan, threads=3)
+    colorizer.colorize(seeds)
+    results = [colorize(scan, seeds, ENHANCED), *(colorizer.colorize(seeds, ENHANCED) for _ in range(2))]
+    results.append(Colorizer(scan, ENHANCED, threads=1).colorize(seeds))
+    assert len({result.rgb.tobytes() for result in results}) == 1
+    assert results[0].rgb.tobytes() != evenly.rgb.tobytes()
+
+
+def test_with_seeds_picked_by_hand_no_preset_is_farther_from_the_truth_than_the_paper():
+    scan, known = load("cones")
+    folder = EXAMPLES / "cones"
+    seeds = Seeds.load(folder / "cones.seeds.json", [folder / "photo.jpg"])
+    errors = {}
+    for name in PRESETS:
+        rgb = with_luminance_of(colorize(scan, seeds, Settings.preset(name)).rgb, scan.color)
+        errors[name] = error_map(rgb, scan.color, known)[known].mean()
+    assert errors["Natural"] < errors["Enhanced"] < 0.95 * errors["Paper"]
 
 
 def test_with_all_seeds_as_nearest_ones_it_is_the_same_as_with_all():

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reflcolor_addon.color.mixing import Mixture, mixture, nearest_other, picked_by_a_person
+from reflcolor_addon.color.mixing import Mixture, mixture, nearest_other, picked_by_a_person, unsmoothed_share
 
 GOOD, BAD = np.full((500, 2), 0.1), np.tile([[3.0, -3], [-3, 3]], (250, 1))
 APART = np.full(500, 32.0)
@@ -66,6 +66,14 @@ def test_one_or_two_seeds_tell_nothing(count):
 
 def test_seeds_that_pass_for_a_person_s_leave_the_pixels_to_the_paths():
     assert mixture(GOOD, BAD, APART, 0.6, 1).share(np.array([32.0])) < 0.05
+
+
+def test_unsmoothed_paths_count_where_smoothed_ones_do_not_tell_a_person_s_seeds_apart():
+    # No seed, one seed that counts alone, two and three that are equally near.
+    weight = np.array([0, 1, 2, 3], np.float32)
+    np.testing.assert_allclose(unsmoothed_share(weight, 1.0), [0, 0, 3 / 4, 8 / 9], rtol=1e-6)
+    np.testing.assert_allclose(unsmoothed_share(weight, 0.5), [0, 0, 3 / 8, 4 / 9], rtol=1e-6)
+    assert not unsmoothed_share(weight, 0.0).any()
 
 
 def test_a_seed_is_no_neighbor_of_its_own():

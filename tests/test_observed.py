@@ -77,6 +77,17 @@ def test_no_edge_shows_where_the_photo_ends():
     assert result.rgb[20, -5, 0] > result.rgb[20, SHAPE[1] // 2, 0] + 4
 
 
+def test_beside_the_border_the_photo_s_colors_go_on_without_what_seeds_differ_by_from_pixel_to_pixel():
+    rng = np.random.default_rng(2)
+    scan = flat_scan()
+    scan = replace(scan, reflectance=(scan.reflectance + 0.05 * rng.normal(size=SHAPE)).astype(np.float32))
+    seeds = found(rng.integers(0, 40, 30), rng.integers(0, 60, 30), rng.integers(120, 180, (30, 3)))
+    result = colorize(scan, seeds, NATURAL, observed_left())
+    steps = np.abs(np.diff(result.rgb.astype(int), axis=1)).max(axis=-1).mean(axis=0)
+    border = SHAPE[1] // 2
+    assert steps[border - 4 : border].max() < 4 < steps[border + 8 : -4].max()
+
+
 def test_what_was_seen_badly_counts_by_its_weight():
     observed = observed_left()
     weak = replace(observed, weight=(observed.weight * 0.5).astype(np.float32))

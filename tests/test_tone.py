@@ -133,8 +133,7 @@ def test_another_tone_takes_no_new_paths_and_gives_the_same_bytes_as_anew(preset
     first = colorizer.colorize(seeds_of(scan), Settings.preset(preset))
     kept = first.rgb.tobytes(), first.confidence.tobytes(), first.nearest_seed.tobytes()
     with monkeypatch.context() as patched:
-        for name in ("_propagate", "_krige"):
-            patched.setattr(colorizer._spreader, name, None)
+        patched.setattr(colorizer._spreader, "_spread_from", None)
         again = colorizer.colorize(seeds_of(scan), Settings.preset(preset, tone=2.5))
     assert (first.rgb.tobytes(), first.confidence.tobytes(), first.nearest_seed.tobytes()) == kept
     anew = colorize(scan, seeds_of(scan), Settings.preset(preset, tone=2.5))

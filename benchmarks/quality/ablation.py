@@ -14,7 +14,7 @@ import numpy as np
 from reflcolor_addon.color import colorspaces, kriging, mixing
 from reflcolor_addon.color.evaluation import evaluate
 from reflcolor_addon.color.luminance import channels_of, lightness, seed_values
-from reflcolor_addon.geodesic.blending import left_out
+from reflcolor_addon.geodesic.blending import leave_one_out
 from reflcolor_addon.geodesic.engines import engine_for
 from reflcolor_addon.geodesic.graph import PixelGraph
 from reflcolor_addon.geodesic.smoothing import smooth
@@ -66,7 +66,7 @@ class Case:
         mean, _ = found.blend(colors, alpha)
         near = found.at(self.pixels)
         self.least, self.reached, self.apart = mean.least, np.isfinite(mean.least), mixing.nearest_other(*near)
-        return np.moveaxis(mean.values, 0, -1), colors - left_out(*near, colors, alpha)
+        return np.moveaxis(mean.values, 0, -1), colors - leave_one_out(*near, colors, alpha)
 
     def kriging(self, *, luminance=None, without=(), nuggets=kriging.NUGGETS, outliers=True, colors=None):
         """Return (H, W, C) values by kriging, and the residuals of left-out seeds."""

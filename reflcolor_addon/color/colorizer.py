@@ -27,7 +27,7 @@ _FEW_UNREACHED = 0.001
 _JOINED = 0.98
 # Pixels between two checks for cancellation.
 _PAINTED_PIXELS = 1 << 19
-_JOIN_BYTES = 120
+_JOIN_BYTES = 150
 """Peak bytes per pixel while observed colors are joined."""
 
 

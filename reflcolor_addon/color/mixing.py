@@ -7,7 +7,8 @@ geodesic distance r to the nearest seed,
 
 and q is the one with which the seeds are estimated best when each is left out. Seeds that a person picked are no such
 test: one on each surface, they are far from each other, while most pixels are near to one. There the paths are trusted,
-and with up to twice the alpha, as the paper has it.
+and with up to twice the alpha, as the paper has it. Where paths over the smoothed reflectance do not tell several such
+seeds apart, smoothing has opened the border between two surfaces, and paths over the reflectance as it is take over.
 """
 
 import math
@@ -18,7 +19,7 @@ import numpy as np
 # R, in units of the geodesic distance: an eighth of the reflectance's whole range.
 _MIDDLE = 32.0
 # The values of q that are tried, and the one for seeds picked by a person.
-_ODDS, _PICKED_ODDS = np.exp(np.linspace(-5, 5, 41)), math.exp(3)
+_ODDS, _PICKED_ODDS = np.exp(np.linspace(-5, 5, 41)), math.exp(5)
 PICKED_GAIN = 2.0
 """Factor of alpha for seeds picked by a person."""
 # The weight of the expected share at R, in seeds.
@@ -90,6 +91,21 @@ def picked_by_a_person(directions, apart, least):
     between_seeds = float(np.median(apart))
     near = float(np.median(least)) / between_seeds if between_seeds > 0 else 1.0
     return float(_step(uneven, *_UNEVEN) * _step(near, *_NEAR))
+
+
+def unsmoothed_share(weight, picked):
+    """Return the share of the paths over the reflectance as it is, beside those over the smoothed one: float32, 0 to 1.
+
+    Parameters
+    ----------
+    weight : (H, W) float32
+        Of all seeds together, that of the nearest one being 1, along paths over the smoothed reflectance: 1 where one
+        seed alone counts, 2 where two are equally near, and so on.
+    picked : float, 0 to 1
+        As in `mixture`.
+    """
+    weight = np.maximum(weight, np.float32(1))
+    return np.float32(picked) * (1 - 1 / (weight * weight))
 
 
 def nearest_other(distances, seeds):

@@ -2,9 +2,12 @@
 
 Where a photo ends, its colors and the inferred ones differ by what no seed told. That difference is carried on, along
 paths, from the border of what was seen: beside the border the inferred colors are the photo's, and farther away they
-are the seeds' again. So all pixels at the border have a say, not one in a superpixel, and no edge shows there.
+are the seeds' again. So all pixels at the border have a say, not one in a superpixel, and no edge shows there. Right
+beside the border, where what seeds tell differs from pixel to pixel by chance, the photo's colors themselves are
+carried on.
 """
 
+import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -13,15 +16,15 @@ import numpy as np
 from ..geodesic.spreading import spread as geodesic_spread
 from .luminance import seed_values
 
-# Cost of a path per pixel, in levels of the reflectance; distance at which the difference has fallen to a half; number
-# of border pixels that are averaged, the exponent of their distances, and the size of the window over which each is
-# smoothed.
-_STEP, _HALF_WAY = 1.0, 150.0
+# Cost of a path per pixel, in levels of the reflectance; distances at which the difference, and what is carried of the
+# colors themselves, have fallen to a half; number of border pixels that are averaged, the exponent of their distances,
+# and the size of the window over which each is smoothed.
+_STEP, _HALF_WAY, _HALF_WAY_ITSELF = 1.0, 150.0, 48.0
 _NEAREST, _ALPHA, _AVERAGED = 8, 2.0, 3
 # Weight from which an observed color counts as that of the surface.
 _SURE = 0.9
 # Pixels over which what was seen fades into what is inferred from it.
-_FADES = 3
+_FADES = 2.5
 # Number of places in the photos that a picked color is compared with.
 _PLACES = 500
 _STRIP_PIXELS = 1 << 18
@@ -140,14 +143,14 @@ def joined(spread, observed, seeds, graph, settings, control=None):
     Colored
     """
     fading = _fading(observed, graph)
-    carried, arrived = _carried(spread, observed, fading, seeds, graph, settings, control)
+    continued, arrived = _continued(spread, observed, fading, seeds, graph, settings, control)
     values = np.empty_like(spread.values)
     # Where nothing else arrived, even a badly observed color is kept.
     weight = np.where(spread.reached | arrived, fading, observed.seen).astype(np.float32)
     rows = max(1, _STRIP_PIXELS // values.shape[1])
     for top in range(0, len(values), rows):
         strip = slice(top, top + rows)
-        inferred = spread.values[strip] + carried[strip]
+        inferred = continued[strip]
         own = seed_values(observed.rgb[strip].reshape(-1, 3), settings).reshape(inferred.shape)
         values[strip] = inferred + weight[strip][..., None] * (own - inferred)
     confidence = observed.weight + (1 - observed.weight) * spread.confidence
@@ -159,17 +162,19 @@ def _fading(observed, graph):
     import cv2
 
     unseen = graph.valid & ~observed.seen
-    margin = _FADES + 1
+    margin = math.ceil(_FADES) + 1
     sides = ((margin, margin), (margin, margin))
     unseen = np.pad(unseen, (sides[0], (0, 0)))
     unseen = np.pad(unseen, ((0, 0), sides[1]), mode="wrap" if graph.wrap else "constant")
     distance = cv2.distanceTransform((~unseen).astype(np.uint8), cv2.DIST_L2, 5)[margin:-margin, margin:-margin]
-    return observed.weight * np.minimum(distance / np.float32(margin), 1)
+    # From the border itself, half a pixel before the last one seen; and with no edge at either end.
+    near = np.clip((distance - np.float32(0.5)) / np.float32(_FADES), 0, 1)
+    return observed.weight * near * near * (3 - 2 * near)
 
 
-def _carried(spread, observed, fading, seeds, graph, settings, control):
-    """(H, W, C) float32: what is added to the inferred values beyond the border of what was seen; and (H, W) bool where
-    something arrived."""
+def _continued(spread, observed, fading, seeds, graph, settings, control):
+    """(H, W, C) float32: the inferred values, brought near to the observed ones beyond the border of what was seen;
+    and (H, W) bool where something arrived from there."""
     import cv2
 
     sure = fading >= _SURE
@@ -177,20 +182,25 @@ def _carried(spread, observed, fading, seeds, graph, settings, control):
     border = sure & (cv2.dilate(rest.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
     pixels = np.flatnonzero(border)
     if not len(pixels):
-        return np.zeros_like(spread.values), np.zeros(sure.shape, bool)
-    differences = _averaged(observed, pixels, settings) - spread.values.reshape(-1, spread.values.shape[-1])[pixels]
-    # Nothing is added to a color given by a person.
+        return spread.values, np.zeros(sure.shape, bool)
+    # Nothing is changed at a color given by a person.
     anchors = _pixels(seeds, seeds.of_a_person & rest[seeds.rows, seeds.cols], graph)
+    inferred = spread.values.reshape(-1, spread.values.shape[-1])
+    own = np.concatenate([_averaged(observed, pixels, settings), inferred[anchors]])
     pixels = np.concatenate([pixels, anchors])
-    differences = np.concatenate([differences, np.zeros((len(anchors), differences.shape[1]), np.float32)])
     around = replace(graph, valid=rest | border, step_cost=_STEP)
-    carried, distance = geodesic_spread(around, pixels, differences, count=_NEAREST, alpha=_ALPHA, control=control)
+    both = np.concatenate([own, own - inferred[pixels]], axis=1)
+    carried, distance = geodesic_spread(around, pixels, both, count=_NEAREST, alpha=_ALPHA, control=control)
+    carried, differences = np.split(carried, 2, axis=-1)
     arrived = np.isfinite(distance)
+    distance = np.where(arrived, distance, np.float32(0))
     gain = np.where(arrived, 1 / (1 + distance / np.float32(_HALF_WAY)), 0)
+    itself = np.where(arrived, 1 / (1 + (distance / np.float32(_HALF_WAY_ITSELF)) ** 2), 0)
     # Without any seed there is only the border.
-    gain[arrived & ~spread.reached] = 1
-    carried *= gain[..., None]
-    return carried, arrived
+    itself[arrived & ~spread.reached] = 1
+    continued = spread.values + gain[..., None] * differences
+    continued += itself[..., None] * (carried - continued)
+    return continued, arrived
 
 
 def _pixels(seeds, chosen, graph):

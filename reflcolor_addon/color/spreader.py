@@ -10,8 +10,7 @@ import numpy as np
 from ..errors import Cancelled
 from ..files.memory import require_memory
 from ..geodesic.blending import leave_one_out
-from ..geodesic.engines import engine_class, engine_for
-from ..geodesic.exact import HeldFields, SeedProgress, add_fields
+from ..geodesic.engines import engine_class
 from ..geodesic.graph import PixelGraph
 from ..geodesic.smoothing import smooth
 from ..messages import Message
@@ -19,7 +18,8 @@ from ..threads import thread_count
 from . import colorspaces, nearest_seeds
 from .kriging import MAX_SEEDS, Kriging, pixel_features
 from .luminance import CHROMINANCE, channels_of, from_one_seed, seed_values
-from .mixing import PICKED_GAIN, mixture, nearest_other, picked_by_a_person
+from .mixing import PICKED_GAIN, mixture, nearest_other, picked_by_a_person, unsmoothed_share
+from .paths import Paths
 
 # The geodesic distance at which the confidence has fallen to a half: about a quarter of the reflectance's whole range.
 _HALF_CONFIDENCE = 64.0
@@ -27,9 +27,9 @@ HALF_CONFIDENCE_LEVELS = 5.0
 """The same, in 8-bit levels, for the difference between eq. 1 and kriging and for chrominance outside the gamut."""
 _POLL_S = 0.02
 # Shares of the progress of a colorization.
-_PROPAGATED, SPREAD = 0.75, 0.95
-_KRIGING_BYTES = 100
-"""Peak bytes per pixel of kriging."""
+_SMOOTHED, _PROPAGATED, SPREAD = 0.45, 0.75, 0.95
+# Peak bytes per pixel of kriging, and of what was found already while paths are sought once more.
+_KRIGING_BYTES, _UNSMOOTHED_BYTES = 100, 40
 
 
 class Spread(NamedTuple):
@@ -69,13 +69,15 @@ def bytes_of_colorizing(shape, seeds, settings, *, engine=None, threads=None):
         nearest = nearest_seeds.NUMBERS[0]
     exact = per_thread * (threads or thread_count())
     per_pixel = always + (per_nearest * min(nearest, seeds) if isinstance(nearest, int) else exact)
-    return pixels * (per_pixel + (_KRIGING_BYTES if settings.kriging else 0))
+    if settings.kriging:
+        per_pixel += _KRIGING_BYTES + (_UNSMOOTHED_BYTES if settings.smoothing else 0)
+    return pixels * per_pixel
 
 
 class Spreader:
     """Spreads the values of seeds over one scan again and again; what did not change is not computed anew.
 
-    It holds the scan's graph, the geodesic fields of its seeds, the sums of eq. 1, and what came of them last.
+    It holds the paths over the smoothed reflectance with what they keep, and what came of the seeds last.
 
     Parameters
     ----------
@@ -92,25 +94,24 @@ class Spreader:
     def __init__(self, scan, luminance, range_image, settings, *, memory, threads):
         self.scan, self.threads = scan, threads
         self._luminance, self._range_image = luminance, range_image
-        self._fields = HeldFields(memory)
-        self._held = None
+        self._memory, self._held = memory, None
         self.settings = None
         self.use(settings)
 
     @property
     def nbytes(self):
         """Bytes that the fields take now."""
-        return self._fields.nbytes
+        return self._paths.nbytes
 
     @property
     def keeps(self):
         """Whether anything is kept for the next time."""
-        return self._fields.limit > 0
+        return self._memory > 0
 
     @property
     def graph(self):
-        """The `PixelGraph` of the scan."""
-        return self._graph
+        """The `PixelGraph` of the scan, smoothed."""
+        return self._paths.graph
 
     def use(self, settings):
         """Take over settings; what they make void is dropped."""
@@ -120,17 +121,19 @@ class Spreader:
             self._features = None
         elif (before.beta, before.neighbors) == (settings.beta, settings.neighbors):
             return
-        self._graph = PixelGraph(
-            luminance=self._smoothed,
+        self._paths = self._paths_over(self._smoothed, self._memory)
+
+    def _paths_over(self, luminance, memory):
+        """The `Paths` over a (H, W) luminance."""
+        graph = PixelGraph(
+            luminance=luminance,
             range_image=self._range_image,
             valid=self.scan.valid,
-            beta=settings.beta,
-            neighbors=settings.neighbors,
+            beta=self.settings.beta,
+            neighbors=self.settings.neighbors,
             wrap=self.scan.full_turn,
         )
-        self._engine = engine_for(self._graph)
-        self._fields.clear()
-        self._forget_sums()
+        return Paths(graph, memory=memory, threads=self.threads)
 
     def spread(self, seeds, progress, cancelled):
         """Return what `Colorizer.spread` does, with the settings in use."""
@@ -161,16 +164,18 @@ class Spreader:
 
     def _spread_from(self, pixels, values, kriging, progress, cancelled):
         """Return the Spread of seeds on these pixels."""
-        propagated = _PROPAGATED if kriging else SPREAD
         if kriging and self._features is None:
             # Computed in parallel with the paths; after a cancellation nobody waits for it.
             pool = ThreadPoolExecutor(1, "reflcolor")
             self._features = pool.submit(pixel_features, self.scan, self._smoothed)
             pool.shutdown(wait=False)
-        mean, method, near, again = self._propagate(
-            pixels, values, lambda done, text: progress(propagated * done, text), cancelled
+        # Some seeds need paths over the reflectance as it is, too.
+        twice = kriging and self.settings.smoothing > 0
+        propagated = _SMOOTHED if twice else _PROPAGATED if kriging else SPREAD
+        mean, method, near, again = self._paths.spread(
+            pixels, values, self.settings, lambda done, text: progress(propagated * done, text), cancelled
         )
-        alpha = self.settings.alpha
+        alpha, picked = self.settings.alpha, 0.0
         if kriging:
             apart = nearest_other(*near)
             picked = picked_by_a_person(self._directions(pixels), apart, mean.least[self.scan.valid])
@@ -179,8 +184,13 @@ class Spreader:
                 mean = again(alpha)
         # It holds arrays as large as the result.
         del again
+        spread = mean.values
+        if twice and picked > 0:
+            unsmoothed = self._unsmoothed(pixels, values[:, CHROMINANCE], alpha, progress, cancelled)
+            # Luminance is left as it is: it changes within surfaces, too, and noise does it more harm.
+            spread[CHROMINANCE] += unsmoothed_share(mean.weight, picked) * (unsmoothed - spread[CHROMINANCE])
         reached = np.isfinite(mean.least)
-        spread, confidence = mean.values, np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
+        confidence = np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
         if kriging:
             estimate, kriging_residuals = self._krige(pixels, values, progress, cancelled)
             path_residuals = values - leave_one_out(*near, values, alpha)
@@ -196,80 +206,31 @@ class Spreader:
             spread[2] = from_one_seed(spread[2], self._luminance, own, self.settings)
         return Spread(np.moveaxis(spread, 0, -1), confidence, mean.nearest_seed, method)
 
+    def _unsmoothed(self, pixels, values, alpha, progress, cancelled):
+        """(C, H, W) float32: what paths give over the reflectance as it is."""
+
+        def report(done, text):
+            progress(_SMOOTHED + (_PROPAGATED - _SMOOTHED) * done, text)
+
+        paths = self._paths_over(self._luminance, memory=0)
+        return paths.spread(pixels, values, replace(self.settings, alpha=alpha), report, cancelled).mean.values
+
     def _directions(self, pixels):
         """(S, 3): unit vectors; 0 at the scanner's own place."""
         points = self.scan.points.reshape(-1, 3)[pixels]
         return points / np.maximum(np.linalg.norm(points, axis=1, keepdims=True), 1e-12)
 
-    def _forget_sums(self):
-        self._blend, self._blended = None, []
-
     def _require_memory(self, seeds):
         rows, columns = self.scan.shape
-        needed = bytes_of_colorizing(self.scan.shape, seeds, self.settings, engine=self._engine, threads=self.threads)
+        needed = bytes_of_colorizing(
+            self.scan.shape, seeds, self.settings, engine=self._paths.engine, threads=self.threads
+        )
         require_memory(
             needed,
             Message(
                 "{scan}: colorizing {rows} rows x {columns} columns", scan=self.scan.name, rows=rows, columns=columns
             ),
         )
-
-    def _propagate(self, pixels, values, progress, cancelled):
-        """Return the mean of eq. 1, how it was found, what lies near the seeds, and a function of another alpha.
-
-        What lies near is as in the engine's ``nearest``; the function returns the mean with that alpha.
-        """
-        nearest = self.settings.nearest
-        method = {"engine": self._engine.name, "note": self._engine.note, "nearest": None}
-        few = nearest_seeds.all_are_few(len(pixels), self.scan.valid.size)
-        if nearest is None or (nearest == "auto" and (self._engine.note or few)):
-            mean, near = self._exact(pixels, values, self.settings.alpha, progress, cancelled)
-            return mean, method, near, lambda alpha: self._exact(pixels, values, alpha, lambda *_: None, cancelled)[0]
-        mean, found, near, lists = nearest_seeds.mean_of_nearest(
-            self._engine, pixels, values, self.scan.valid, self.settings, self.threads, progress, cancelled
-        )
-        return mean, method | found, near, lambda alpha: lists.blend(values, alpha)[0]
-
-    def _exact(self, pixels, values, alpha, progress, cancelled):
-        """Eq. 1 over all seeds, in their order; fields that are not held are computed in threads, a few ahead."""
-        wanted = list(zip(pixels.tolist(), map(tuple, values.tolist()), strict=True))
-        done, between = len(self._blended), None
-        if self.settings.kriging and pixels.size <= MAX_SEEDS:
-            # Kriging needs the distances between seeds, so every field is visited again.
-            self._forget_sums()
-            between = np.empty((pixels.size,) * 2, np.float32)
-        if self._blend is None or self._alpha != alpha or self._blended != wanted[:done]:
-            self._forget_sums()
-            self._alpha, done = alpha, 0
-            self._blend = self._engine.blend(self._alpha, values.shape[1])
-        missing = wanted[done:]
-        held = done + sum(self._fields.get(pixel) is not None for pixel, _ in missing)
-        report = SeedProgress(progress, len(wanted), held, np.count_nonzero(self.scan.valid), self.threads)
-
-        def added(index, field):
-            self._blended.append(missing[index])
-            if between is not None:
-                between[:, done + index] = field[np.unravel_index(pixels, self.scan.shape)]
-            report(len(self._blended))
-
-        try:
-            add_fields(
-                self._engine,
-                self._blend,
-                missing,
-                threads=self.threads,
-                held=self._fields,
-                added=added,
-                working=lambda settled: report(len(self._blended), settled),
-                cancelled=cancelled,
-            )
-        except BaseException:
-            self._forget_sums()
-            raise
-        mean = self._blend.mean(keep=self.keeps)
-        if not self.keeps:
-            self._forget_sums()
-        return mean, None if between is None else (between, np.broadcast_to(np.arange(pixels.size), between.shape))
 
     def _krige(self, pixels, values, progress, cancelled):
         """Return the (C, H, W) float32 values estimated by kriging, 0 where not valid, and residuals of the seeds."""

@@ -18,12 +18,13 @@ adds n roundings, so that a distance d lies within (n + 7) u d of the exact one.
 """
 
 from ..native.library import ABI_VERSION, Control, available, library_file, reason
-from .kernel_blend import Blend, Mean
+from .kernel_blend import MAX_CHANNELS, Blend, Mean
 from .kernel_graph import Graph, field
 from .kernel_nearest import MAX_NEAREST, Nearest, nearest
 
 __all__ = [
     "ABI_VERSION",
+    "MAX_CHANNELS",
     "MAX_NEAREST",
     "Blend",
     "Control",

@@ -37,8 +37,12 @@ def spread(graph, pixels, values, *, count, alpha, control=None):
     values = np.asarray(values, np.float32)
     if kernel.available():
         found = kernel.nearest(kernel.Graph.of(graph), pixels, min(count, len(pixels)), control=control)
-        mean, _ = found.blend(values, alpha, control=control)
-        return np.moveaxis(mean.values, 0, -1), mean.least
+        mean = np.empty((*graph.shape, values.shape[1]), np.float32)
+        for first in range(0, values.shape[1], kernel.MAX_CHANNELS):
+            part = slice(first, first + kernel.MAX_CHANNELS)
+            blended, _ = found.blend(values[:, part], alpha, control=control)
+            mean[..., part] = np.moveaxis(blended.values, 0, -1)
+        return mean, blended.least
     from scipy.sparse.csgraph import dijkstra
 
     least, _, source = dijkstra(graph.matrix, indices=np.asarray(pixels), min_only=True, return_predecessors=True)
