@@ -1,34 +1,39 @@
 """What each part of "Natural" gains, and what else was tried: python -m benchmarks.quality.ablation [SCAN ...]
 
 Every variant differs from "Natural" in one respect. Printed is the mean over the scans and numbers of seeds of its mean
-CIEDE2000 as a ratio to that of "Natural", as the colors come / with the true luminance: above 1 is worse. Takes some
-fifteen minutes.
+CIEDE2000 as a ratio to that of "Natural", as the colors come / with the true luminance: above 1 is worse. The last
+column is of the simulated scan with the seeds that a person picked, with their true colors. Takes some fifteen minutes.
 """
 
 import argparse
 import statistics
 import sys
+from dataclasses import replace
 
 import numpy as np
 
 from reflcolor_addon.color import colorspaces, kriging, mixing
 from reflcolor_addon.color.evaluation import evaluate
-from reflcolor_addon.color.luminance import channels_of, lightness, seed_values
+from reflcolor_addon.color.luminance import CHROMINANCE, channels_of, lightness, seed_values
+from reflcolor_addon.color.spreader import UNSMOOTHED_NEAREST
 from reflcolor_addon.geodesic.blending import leave_one_out
 from reflcolor_addon.geodesic.engines import engine_for
 from reflcolor_addon.geodesic.graph import PixelGraph
 from reflcolor_addon.geodesic.smoothing import smooth
 from reflcolor_addon.scan.normalization import normalize
 from reflcolor_addon.scan.normals import surface_normals
+from reflcolor_addon.seeds.seeds import Seeds
 from reflcolor_addon.settings import Settings
 
 from . import peers
-from .scenes import CHOSEN_ON, COUNTS, NAMES, OTHERS, PAIRS, SIMULATED, load, perfect_seeds
+from .scenes import CHOSEN_ON, COUNTS, NAMES, OTHERS, PAIRS, ROOT, SIMULATED, load, perfect_seeds
 
 _NATURAL = Settings.preset("Natural")
 _PARTS = channels_of(_NATURAL)
 # A step's constant is for a scan of this many pixels and shrinks with the side, so that crossing a scan costs the same.
 _STEP_PIXELS = 270**2
+# What is measured instead of a number of seeds.
+_BY_HAND = "seeds by hand"
 # Of a detail's slope that the seeds tell: what draws it to 0, in seeds.
 _SLOPE_SEEDS = 10
 
@@ -49,30 +54,56 @@ class Case:
         return smooth(self.luminance, self.scan.valid, sigma, wrap=self.scan.full_turn)
 
     def paths(
-        self, *, luminance=None, beta=1.0, constant=0.0, alpha=_NATURAL.alpha, nearest=_NATURAL.nearest, colors=None
+        self,
+        *,
+        luminance=None,
+        beta=1.0,
+        constant=0.0,
+        alpha=_NATURAL.alpha,
+        nearest=_NATURAL.nearest,
+        colors=None,
+        unsmoothed=mixing.unsmoothed_share,
     ):
-        """Return (H, W, C) values by eq. 1, where it reaches, and the residuals of left-out seeds."""
+        """Return (H, W, C) values by eq. 1, where it reaches, and the residuals of left-out seeds.
+
+        ``unsmoothed`` gives the share of paths over the reflectance as it is.
+        """
         colors = self.colors if colors is None else colors
-        graph = PixelGraph(
-            luminance=self.smoothed if luminance is None else luminance,
-            range_image=self.range_image,
-            valid=self.scan.valid,
-            beta=beta,
-            wrap=self.scan.full_turn,
-            step_cost=constant * float(np.sqrt(_STEP_PIXELS / self.scan.valid.sum())),
-        )
-        engine = engine_for(graph)
-        found = engine.nearest(self.pixels, min(nearest, self.pixels.size), engine.control())
+
+        def found_over(luminance, nearest):
+            graph = PixelGraph(
+                luminance=luminance,
+                range_image=self.range_image,
+                valid=self.scan.valid,
+                beta=beta,
+                wrap=self.scan.full_turn,
+                step_cost=constant * float(np.sqrt(_STEP_PIXELS / self.scan.valid.sum())),
+            )
+            engine = engine_for(graph)
+            return engine.nearest(self.pixels, min(nearest, self.pixels.size), engine.control())
+
+        found = found_over(self.smoothed if luminance is None else luminance, nearest)
         mean, _ = found.blend(colors, alpha)
         near = found.at(self.pixels)
         self.least, self.reached, self.apart = mean.least, np.isfinite(mean.least), mixing.nearest_other(*near)
+        if picked := self.picked():
+            alpha *= mixing.PICKED_GAIN**picked
+            mean, _ = found.blend(colors, alpha)
+            chroma = mean.values[CHROMINANCE]
+            other, _ = found_over(self.luminance, UNSMOOTHED_NEAREST).blend(colors[:, CHROMINANCE], alpha)
+            chroma += unsmoothed(mean.weight, picked) * (other.values - chroma)
         return np.moveaxis(mean.values, 0, -1), colors - leave_one_out(*near, colors, alpha)
+
+    def picked(self):
+        """How much the seeds pass for picked by a person, with the paths taken last."""
+        points = self.scan.points.reshape(-1, 3)[self.pixels]
+        directions = points / np.linalg.norm(points, axis=1, keepdims=True)
+        return mixing.picked_by_a_person(directions, self.apart, self.least[self.scan.valid])
 
     def kriging(self, *, luminance=None, without=(), nuggets=kriging.NUGGETS, outliers=True, colors=None):
         """Return (H, W, C) values by kriging, and the residuals of left-out seeds."""
         colors = self.colors if colors is None else colors
         features = kriging.pixel_features(self.scan, self.smoothed if luminance is None else luminance)
-        self.directions = features[self.pixels, :3]
         features[:, [i for part in without for i in range(*_FEATURES[part])]] = 0
         kept = kriging.NUGGETS, kriging._OUTLIER_GAIN
         kriging.NUGGETS, kriging._OUTLIER_GAIN = nuggets, kept[1] if outliers else 0.0
@@ -83,14 +114,13 @@ class Case:
         estimate = np.concatenate([model.estimate(features[chunk]) for chunk in model.chunks(len(features))])
         return estimate.reshape(*self.scan.shape, -1), model.residuals
 
-    def mix(self, paths, krige, *, share=None, even=False, told_apart=True):
+    def mix(self, paths, krige, *, share=None, told_apart=True):
         """Return the values mixed of both, and the residuals; by default with the share that the seeds tell.
 
-        ``share`` is one for all pixels; with ``even`` the seeds never pass for a person's; without ``told_apart``
-        luminance and chrominance get the same share.
+        ``share`` is one for all pixels; without ``told_apart`` luminance and chrominance get the same share.
         """
         mixed, rest = np.empty_like(paths[0]), np.empty_like(paths[1])
-        picked = 0.0 if even else mixing.picked_by_a_person(self.directions, self.apart, self.least[self.scan.valid])
+        picked = self.picked()
         for part in _PARTS:
             asked = part if told_apart else slice(None)
             if share is not None:
@@ -136,6 +166,15 @@ def variants(case):
     yield "kriging alone", case.errors(krige[0])
     for share in (0.4, 0.6, 0.8):
         yield f"share of kriging {share} at every pixel", case.errors(case.mix(paths, krige, share=share)[0])
+    for name, share in (
+        ("smoothed reflectance alone", lambda weight, picked: np.float32(0)),
+        ("reflectance as it is alone", lambda weight, picked: np.float32(picked)),
+        ("half of each", lambda weight, picked: np.float32(picked / 2)),
+    ):
+        yield (
+            f"seeds picked by hand: paths over the {name}",
+            case.errors(case.mix(case.paths(unsmoothed=share), krige)[0]),
+        )
     for sigma in (0.0, 2.0):
         smoothed = case.smooth(sigma)
         changed = case.mix(case.paths(luminance=smoothed), case.kriging(luminance=smoothed))
@@ -222,24 +261,33 @@ def _corrected(case):
     return normalize(rest, valid)[0]
 
 
+def _picked(name, scan):
+    """The seeds that a person picked on a simulated scan, with their true colors."""
+    folder = ROOT / SIMULATED[name]
+    seeds = Seeds.load(folder / f"{name}.seeds.json", [folder / "photo.jpg"])
+    return replace(seeds, rgb=scan.color[seeds.rows, seeds.cols])
+
+
 def main():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.ablation", description=__doc__)
     parser.add_argument("scans", metavar="SCAN", nargs="*", help=f"by default all: {', '.join(NAMES)}")
     names = parser.parse_args().scans or NAMES
     errors = {}
     for name in names:
-        for count in COUNTS:
+        for count in (*COUNTS, _BY_HAND) if name in SIMULATED else COUNTS:
             print(f"{name}, {count} seeds", file=sys.stderr, flush=True)
             scan, known = load(name)
-            case = Case(scan, known, perfect_seeds(scan, known, count))
-            for variant, found in variants(case):
+            seeds = perfect_seeds(scan, known, count) if count in COUNTS else _picked(name, scan)
+            for variant, found in variants(Case(scan, known, seeds)):
                 errors.setdefault(variant, {})[name, count] = found
     groups = {"chosen on": CHOSEN_ON, "others": OTHERS, "spinning lidars": PAIRS, "simulated": tuple(SIMULATED)}
+    groups = {title: [(name, count) for name in group for count in COUNTS] for title, group in groups.items()}
+    groups[_BY_HAND] = [(name, _BY_HAND) for name in SIMULATED]
     print(f"| variant | {' | '.join(groups)} |\n|---|" + "---|" * len(groups))
     for variant, found in errors.items():
         cells = []
         for group in groups.values():
-            places = [place for place in found if place[0] in group]
+            places = [place for place in group if place in found]
             ratios = ([found[place][part] / errors["Natural"][place][part] for place in places] for part in (0, 1))
             cells.append(" / ".join(f"{statistics.fmean(part):.3f}" for part in ratios) if places else "")
         print(f"| {variant} | {' | '.join(cells)} |")

@@ -27,7 +27,9 @@ HALF_CONFIDENCE_LEVELS = 5.0
 """The same, in 8-bit levels, for the difference between eq. 1 and kriging and for chrominance outside the gamut."""
 _POLL_S = 0.02
 # Shares of the progress of a colorization.
-_SMOOTHED, _PROPAGATED, SPREAD = 0.45, 0.75, 0.95
+_SMOOTHED, _PROPAGATED, SPREAD = 0.5, 0.75, 0.95
+# Nearest seeds along paths over the reflectance as it is, where the settings do not ask for fewer, or for all.
+UNSMOOTHED_NEAREST = 4
 # Peak bytes per pixel of kriging, and of what was found already while paths are sought once more.
 _KRIGING_BYTES, _UNSMOOTHED_BYTES = 100, 40
 
@@ -212,8 +214,12 @@ class Spreader:
         def report(done, text):
             progress(_SMOOTHED + (_PROPAGATED - _SMOOTHED) * done, text)
 
+        nearest = self.settings.nearest
+        if isinstance(nearest, int):
+            nearest = min(nearest, UNSMOOTHED_NEAREST)
+        settings = replace(self.settings, alpha=alpha, nearest=nearest)
         paths = self._paths_over(self._luminance, memory=0)
-        return paths.spread(pixels, values, replace(self.settings, alpha=alpha), report, cancelled).mean.values
+        return paths.spread(pixels, values, settings, report, cancelled).mean.values
 
     def _directions(self, pixels):
         """(S, 3): unit vectors; 0 at the scanner's own place."""
