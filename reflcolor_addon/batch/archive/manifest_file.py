@@ -11,7 +11,7 @@ from pathlib import Path
 from ...errors import SettingsError, UsageError
 from ...files.gate import contents
 from ...files.images import IMAGE_SUFFIXES
-from ...files.readers.options import AS_IT_IS
+from ...files.readers.options import AS_IT_IS, with_option
 from ...messages import Message
 from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
 from ...view.fewer_faces import FEWEST_FACES, MOST_FACES
@@ -313,7 +313,7 @@ class _Reader:
         for table in chain:
             for key, value in table.get("reading", dict, {}).items():
                 try:
-                    options = options.with_option(key, value)
+                    options = with_option(options, key, value)
                 except UsageError as error:
                     table.refuse(("reading", key), "reading: {problem}", problem=error.message)
         return options

@@ -12,7 +12,7 @@ from .e57_header import GROUP, GROUPS, INDEX, require_structure, scan_header
 from .e57_points import E57Points
 from .formats import Format
 from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_grid, with_problems
-from .options import ANGLE, AS_IT_IS
+from .options import ANGLE, AS_IT_IS, pixels_kept
 
 # Pixels for each point of a grid whose bounds are believed before it is read.
 _SPARSEST = 100
@@ -129,7 +129,7 @@ def e57_pixels(file, path, *, options=AS_IT_IS, outside=False):
         pixels.append(int(grid) if header.count <= grid <= header.count * _SPARSEST else header.count)
     if not pixels:
         with_problems([], problems, len(nodes), path)
-    return options.pixels_kept(pixels)
+    return pixels_kept(pixels, options)
 
 
 def _header(node, path, file_size, name, options):

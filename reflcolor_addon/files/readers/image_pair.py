@@ -16,7 +16,7 @@ from ..memory import require_memory
 from .formats import Format
 from .grid import BYTES_PER_PIXEL
 from .numpy_arrays import array_of, array_shape
-from .options import AS_IT_IS
+from .options import AS_IT_IS, pixels_kept
 from .reflectance import told_apart
 from .scan_json import EXPECTED, LARGEST_FILE, check_description, file_and_array
 from .settle import scaled_by_pose
@@ -147,7 +147,7 @@ def image_pair_pixels(file, path, *, options=AS_IT_IS, outside=False):
         # A photo may be stored lying on its side.
         if key != "color" or size[::-1] != shape:
             _require_same_size(path, key, image, size, shape)
-    return options.pixels_kept([shape[0] * shape[1]])
+    return pixels_kept([shape[0] * shape[1]], options)
 
 
 def full_code(values, valid):

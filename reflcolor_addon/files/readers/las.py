@@ -14,7 +14,7 @@ from ..confined.reading import ConfinedReading, native_library
 from ..gate import size_of
 from .cloud import check_size, require_grid, scan_of_columns
 from .formats import Format
-from .options import AS_IT_IS
+from .options import AS_IT_IS, pixels_kept
 
 SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "laz_points.py"
 _MAGIC = b"LASF"
@@ -58,7 +58,7 @@ def las_pixels(file, path, *, options=AS_IT_IS, outside=False):
     header = _header(file, path)
     names = [name.replace(" ", "_") for name in header.point_format.dimension_names]
     require_grid(path, names, options=options)
-    return options.pixels_kept([header.point_count])
+    return pixels_kept([header.point_count], options)
 
 
 def imported_laspy():

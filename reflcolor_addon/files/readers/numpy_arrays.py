@@ -11,7 +11,7 @@ from ..gate import opened
 from .cloud import require_grid, scan_of_columns
 from .formats import Format
 from .numpy_file import MAGIC, ZIP, NumpyFile
-from .options import ANGLE, AS_IT_IS
+from .options import ANGLE, AS_IT_IS, pixels_kept
 
 _POINTS = ("xyz", "points", "point_cloud", "cloud")
 _RANGES = ("range", "ranges", "range_m", "distance", "depth_ray")
@@ -60,13 +60,13 @@ def numpy_pixels(file, path, *, options=AS_IT_IS, outside=False):
     shapes = NumpyFile(file, path).shapes()
     size, angles = _grid_size(shapes), [any(name in shapes for name in names) for names in (_AZIMUTHS, _ELEVATIONS)]
     if size is not None and (all(angles) or not _by_angles(shapes)):
-        return options.pixels_kept([size[0] * size[1]])
+        return pixels_kept([size[0] * size[1]], options)
     points = next((shapes[name] for name in (*_POINTS, "", "x") if name in shapes), None)
     if points is None:
         raise _unknown(shapes, path)
     names = [name for name, shape in shapes.items() if shape == points[:1]]
     require_grid(path, [*names, "xyz"], options=options)
-    return options.pixels_kept([points[0]])
+    return pixels_kept([points[0]], options)
 
 
 def array_shape(path, member):

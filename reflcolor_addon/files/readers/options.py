@@ -74,31 +74,6 @@ class ReadOptions:
         if self.step < 1:
             raise UsageError("step: expected a whole number of at least 1, found {found}", found=self.step)
 
-    def with_option(self, name, value):
-        """Return the same with one option of another value, as a file of text states it.
-
-        Raises
-        ------
-        UsageError
-            If there is no such option, or the value is none of it.
-        """
-        kinds = {field.name: type(field.default) for field in fields(self)}
-        if name not in kinds:
-            raise UsageError("unknown option {name}; expected one of {known}", name=name, known=", ".join(kinds))
-        if name == "position":
-            numbers = value if isinstance(value, list) else []
-            if len(numbers) != 3 or not all(isinstance(each, int | float) and abs(each) < 1e9 for each in numbers):
-                raise UsageError("position: expected three numbers, found {found}", found=value)
-            value = tuple(map(float, numbers))
-        elif type(value) is not kinds[name]:
-            expected = {int: "a whole number", bool: "true or false", str: "a text in quotes"}[kinds[name]]
-            raise UsageError("{name}: expected {expected}, found {found}", name=name, expected=expected, found=value)
-        return replace(self, **{name: value})
-
-    def pixels_kept(self, pixels):
-        """Return how many pixels are left of scans with so many; a grid by angle has about one for each point."""
-        return [max(1, count // (1 if self.grid == ANGLE else self.step**2)) for count in pixels]
-
     def as_dict(self):
         """Return what is not as it would be anyway, ready for JSON."""
         return {
@@ -107,3 +82,30 @@ class ReadOptions:
 
 
 AS_IT_IS = ReadOptions()
+
+
+def with_option(options, name, value):
+    """Return `ReadOptions` with one option of another value, as a file of text states it.
+
+    Raises
+    ------
+    UsageError
+        If there is no such option, or the value is none of it.
+    """
+    kinds = {field.name: type(field.default) for field in fields(options)}
+    if name not in kinds:
+        raise UsageError("unknown option {name}; expected one of {known}", name=name, known=", ".join(kinds))
+    if name == "position":
+        numbers = value if isinstance(value, list) else []
+        if len(numbers) != 3 or not all(isinstance(each, int | float) and abs(each) < 1e9 for each in numbers):
+            raise UsageError("position: expected three numbers, found {found}", found=str(value))
+        value = tuple(map(float, numbers))
+    elif type(value) is not kinds[name]:
+        expected = {int: "a whole number", bool: "true or false", str: "a text in quotes"}[kinds[name]]
+        raise UsageError("{name}: expected {expected}, found {found}", name=name, expected=expected, found=str(value))
+    return replace(options, **{name: value})
+
+
+def pixels_kept(pixels, options):
+    """Return how many pixels are left of scans with so many; a grid by angle has about one for each point."""
+    return [max(1, count // (1 if options.grid == ANGLE else options.step**2)) for count in pixels]

@@ -11,7 +11,7 @@ from ...scan.limits import MOST_PIXELS
 from ..gate import size_of
 from .cloud import check_size, require_grid, scan_of_columns
 from .formats import Format
-from .options import ANGLE, AS_IT_IS
+from .options import ANGLE, AS_IT_IS, pixels_kept
 from .poses import quaternion_pose
 from .text_lines import TextLines
 
@@ -70,7 +70,7 @@ def pcd_pixels(file, path, *, options=AS_IT_IS, outside=False):
     if header["DATA"][0].lower() == "binary":
         size = sum(np.dtype(kind).itemsize * number for kind, number in zip(types, counts, strict=True))
         _require(size_of(file) - file.tell() >= count * size, path)
-    return options.pixels_kept([count])
+    return pixels_kept([count], options)
 
 
 def _size(header, path):

@@ -12,7 +12,7 @@ from ...scan.scan import is_plausible
 from ..gate import size_of
 from .cloud import check_size, require_grid, scan_of_columns
 from .formats import Format
-from .options import ANGLE, AS_IT_IS
+from .options import ANGLE, AS_IT_IS, pixels_kept
 from .text_lines import TextLines
 
 _LONGEST_HEADER = 1 << 16
@@ -89,7 +89,7 @@ def ply_pixels(file, path, *, options=AS_IT_IS, outside=False):
         size = vertices.count * sum(np.dtype(kind).itemsize for _, kind, _ in vertices.properties)
         if size > size_of(file) - file.tell():
             raise ScanError("{file}: holds less than its header says; it is cut short", file=path.name)
-    return options.pixels_kept([shape[0] * shape[1] if ranged and shape is not None else vertices.count])
+    return pixels_kept([shape[0] * shape[1] if ranged and shape is not None else vertices.count], options)
 
 
 def _scans(path, columns, shape, header, options):

@@ -14,7 +14,7 @@ from .angle import gridded_by_angle
 from .cloud import Place
 from .formats import Format
 from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_grid, with_problems
-from .options import ANGLE, AS_IT_IS
+from .options import ANGLE, AS_IT_IS, pixels_kept
 from .poses import ptx_pose
 from .ptx_points import END_MARKS, PointLines, number_of, shortened, shown
 from .text_lines import TextLines
@@ -152,7 +152,7 @@ def ptx_pixels(file, path, *, options=AS_IT_IS, outside=False):
     some = lines.take(min(count, _LINES_TO_MEASURE))
     others = round(left * len(some) / max(sum(len(line) + 1 for line in some), 1)) - count
     pixels = [count, others] if others > count * _ANOTHER else [count]
-    return options.pixels_kept(pixels)
+    return pixels_kept(pixels, options)
 
 
 def _read_scan(lines, first, *, after, options):
