@@ -325,6 +325,18 @@ def test_when_a_later_output_fails_the_ones_that_are_there_are_named(run_cli, cl
     assert not (cli_folder / "c.png").exists()
 
 
+def test_what_is_noticed_of_very_many_scans_is_said_of_some(run_cli, cli_folder):
+    # Of one pixel each, which do not show where up is.
+    one = "1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5\n"
+    (cli_folder / "many.ptx").write_text(one * 30)
+    status, _, err = run_cli("info", "many.ptx")
+    lines = err.splitlines()
+    assert status == 0
+    assert sum("do not show which way is up" in line for line in lines) == 20
+    assert sum("its intensity is 0.5 everywhere" in line for line in lines) == 20
+    assert lines[40:] == ["warning: 20 more of the same kinds"]
+
+
 def test_what_was_noticed_before_an_error_is_said_before_it(run_cli, cli_folder):
     def write_scene(*_):
         raise OutputError("b.usd: cannot be written (No space left on device)")

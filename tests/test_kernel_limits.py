@@ -24,6 +24,13 @@ FUZZ = KERNEL.parent / "tools" / "fuzz_kernel.sh"
 NARROW_BANDS = ("-DRC_BAND_PIXELS=1", "-DRC_BAND_CELLS=0")
 
 
+def test_rows_of_an_image_of_one_column_may_be_stored_backward():
+    image = np.ones((1, 3), np.float32)[:, ::-1].T
+    for shown in (image, image[::-1], image[:1][::-1]):
+        graph = kernel.Graph(shown, shown, shown > 0)
+        assert graph.shape == shown.shape
+
+
 @pytest.fixture
 def library():
     return native.library()

@@ -123,6 +123,17 @@ def test_a_count_beyond_the_file_is_told_before_anything_is_allocated(tmp_path):
             read_scans(tmp_path / "odd.las", options=ANGLE)
 
 
+def test_chunks_that_no_file_has_room_for_are_refused(tmp_path):
+    data = bytearray(written(tmp_path / "hall.laz").read_bytes())
+    with laspy.open(tmp_path / "hall.laz") as reader:
+        start = reader.header.offset_to_point_data
+    (table,) = struct.unpack_from("<q", data, start)
+    struct.pack_into("<I", data, table + 4, 2**32 - 1)
+    (tmp_path / "odd.laz").write_bytes(data)
+    with pytest.raises(ScanError, match=r"^odd\.laz: [^\n]*(damaged|memory)[^\n]*$"):
+        read_scans(tmp_path / "odd.laz", options=ANGLE)
+
+
 def test_compressed_points_that_make_no_sense_are_told(tmp_path):
     whole = written(tmp_path / "hall.laz").read_bytes()
     with laspy.open(tmp_path / "hall.laz") as reader:

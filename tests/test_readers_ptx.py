@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from sample_scans import intensity_of, ptx_text, room_points
 
 from reflcolor_addon.errors import Cancelled, ScanError
-from reflcolor_addon.files.readers import read_scans
+from reflcolor_addon.files.readers import ReadOptions, read_scans
 
 POINTS = room_points()
 INTENSITY = intensity_of(POINTS)
@@ -307,6 +307,22 @@ def test_more_points_than_announced_are_told(tmp_path):
 
 def test_a_scan_without_any_return_is_refused(tmp_path):
     assert "no pixel with a return" in failure(tmp_path, ptx_text(POINTS * 0, INTENSITY))
+
+
+def test_a_scan_of_one_point_again_and_again_is_refused(tmp_path):
+    assert "no pixel with a return" in failure(tmp_path, ptx_text(np.ones_like(POINTS), INTENSITY))
+
+
+def test_no_grid_by_angle_is_laid_over_nothing(tmp_path):
+    (tmp_path / "a.ptx").write_text(ptx_text(POINTS * 0, INTENSITY))
+    with pytest.raises(ScanError, match=r"a\.ptx: scan 'a' has no pixel with a return"):
+        read_scans(tmp_path / "a.ptx", options=ReadOptions(grid="angle"))
+
+
+def test_what_is_implausible_once_it_is_moved_is_told_with_the_file_and_the_scan(tmp_path):
+    (tmp_path / "a.ptx").write_text(ptx_text(POINTS, INTENSITY))
+    with pytest.raises(ScanError, match=r"^a\.ptx: a: the pose is not that of a scanner"):
+        read_scans(tmp_path / "a.ptx", options=ReadOptions(position=(2e9, 0, 0)))
 
 
 def test_an_empty_scan_among_others_is_left_out_and_told(tmp_path):

@@ -33,8 +33,14 @@ _SCANS = {
         "über seine Punkte wurde ein Raster von {rows} x {columns} Pixeln nach Winkeln gelegt, von {place} aus "
         "gesehen; {lost:,} Punkte liegen hinter anderen und wurden ausgelassen"
     ),
-    "a grid by angle would have {rows:,} x {columns:,} pixels": (
-        "ein Raster nach Winkeln hätte {rows:,} x {columns:,} Pixel"
+    "a grid by angle would have {rows:,} x {columns:,} pixels for {count:,} points; {way}": (
+        "ein Raster nach Winkeln hätte {rows:,} x {columns:,} Pixel für {count:,} Punkte; {way}"
+    ),
+    "a grid by angle would have more than {most:,} rows or columns; {way}": (
+        "ein Raster nach Winkeln hätte mehr als {most:,} Zeilen oder Spalten; {way}"
+    ),
+    "check the scanner's position, and the step if one was given": (
+        "die Position des Scanners prüfen, und die Schrittweite, wenn eine angegeben wurde"
     ),
     "{count} points are too few for a grid by angle": "{count} Punkte sind zu wenige für ein Raster nach Winkeln",
     "the points lie in one line as seen from the scanner; there is no grid to lay over them": (

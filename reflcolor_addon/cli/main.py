@@ -4,11 +4,13 @@ Exit status: 0 done, 1 bad input, 2 wrong usage, 130, 143 or 129 interrupted. Wh
 """
 
 import argparse
+from collections import Counter
 from functools import partial
 
 from ..batch.session import Session
 from ..errors import Cancelled, UsageError
 from ..failures import line_of
+from ..messages import Message, value_of
 from ..version import __version__
 from .console import Console, open_standard_streams
 from .interruption import Interruption
@@ -16,6 +18,7 @@ from .verbs import VERBS
 
 DONE, BAD_INPUT, WRONG_USAGE = 0, 1, 2
 _INTERRUPTED = "interrupted"
+_MOST_OF_A_KIND = 20
 
 
 def main(argv, *, prog="python -m reflcolor_addon", blender=None):
@@ -79,8 +82,15 @@ def _outcome(argv, prog, session, console, interruption):
 
 
 def _warn(session, console):
+    """Print what was noticed; of what is noticed again and again, about each scan of a file, only some."""
+    kinds = Counter()
     for warning in session.warnings:
-        console.warn(warning)
+        kind = value_of(warning, "note") or warning
+        kinds[template := getattr(kind, "template", kind)] += 1
+        if kinds[template] <= _MOST_OF_A_KIND:
+            console.warn(warning)
+    if more := sum(max(0, count - _MOST_OF_A_KIND) for count in kinds.values()):
+        console.warn(Message("{count:,} more of the same kinds", count=more))
 
 
 def _inputs(arguments):

@@ -152,4 +152,7 @@ def adjacent_rows(array):
     width = array.shape[1]
     adjacent = width <= 1 or array.strides[1] == array.itemsize
     apart = array.strides[0] % array.itemsize == 0 and array.strides[0] >= width * array.itemsize
-    return array if adjacent and apart and array.size else np.ascontiguousarray(array)
+    if adjacent and apart and array.size:
+        return array
+    # To NumPy an image of one row or column is contiguous whatever its strides are, and it would not be copied.
+    return array.copy(order="C")

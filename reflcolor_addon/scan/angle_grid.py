@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ScanError
+from ..messages import Message
 from .grid_health import neighbor_share
 
 _SAMPLES = 1 << 16
@@ -30,6 +31,10 @@ _FEWEST_RINGS, _MOST_RINGS = 8, 256
 _CLEAR_GAP = 3.0
 _MULTIPLES = ((1, 1), (2, 1), (1, 2), (2, 2), (3, 1), (1, 3), (3, 2), (2, 3), (3, 3))
 _MOST_LINES = 65536
+_FEW_PIXELS, _MOST_PER_POINT = 1 << 21, 64
+"""A grid has at most so many pixels, or so many for each point: others would be all but empty."""
+
+_WAY = Message("check the scanner's position, and the step if one was given")
 _FULL_TURN_GAP_DEG = 12.0
 
 
@@ -95,10 +100,24 @@ def grid_by_angle(points, *, step_deg=None):
         uneven = rings is not None and lattices[0] is None
         steps = (rings, steps[1]) if uneven else _joined(steps, down, along)
     rows, cols = (step.numbers(angles) for step, angles in zip(steps, (down, along), strict=True))
-    shape = (int(rows.max()) + 1, int(cols.max()) + 1)
-    if max(shape) > _MOST_LINES:
-        raise ScanError("a grid by angle would have {rows:,} x {columns:,} pixels", rows=shape[0], columns=shape[1])
+    shape = _shape(rows, cols)
+    if shape[0] * shape[1] > _most_pixels(points):
+        raise ScanError(
+            "a grid by angle would have {rows:,} x {columns:,} pixels for {count:,} points; {way}",
+            rows=shape[0],
+            columns=shape[1],
+            count=len(points),
+            way=_WAY,
+        )
     return AngleGrid(rows=rows, cols=cols, shape=shape, step_deg=(steps[0].step, steps[1].step))
+
+
+def _shape(rows, cols):
+    return int(rows.max()) + 1, int(cols.max()) + 1
+
+
+def _most_pixels(points):
+    return max(_FEW_PIXELS, _MOST_PER_POINT * len(points))
 
 
 @dataclass(frozen=True)
@@ -113,8 +132,14 @@ class _Lattice:
         return _Lattice(self.step * count, self.first)
 
     def numbers(self, angles):
-        numbers = np.rint((angles - self.first) / self.step).astype(np.int32)
-        return numbers - numbers.min()
+        numbers = np.rint((angles - self.first) / self.step)
+        numbers -= numbers.min()
+        # Points in next to one direction and some opposite to them have steps too small for the angle between.
+        if numbers.max() >= _MOST_LINES:
+            raise ScanError(
+                "a grid by angle would have more than {most:,} rows or columns; {way}", most=_MOST_LINES, way=_WAY
+            )
+        return numbers.astype(np.int32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,8 +217,14 @@ def _joined(steps, down, along):
     best, most = steps, 0
     for by_row, by_col in _MULTIPLES:
         tried = steps[0].times(by_row), steps[1].times(by_col)
-        rows, cols = tried[0].numbers(down), tried[1].numbers(along)
-        filled = np.zeros((rows.max() + 1, cols.max() + 1), bool)
+        try:
+            rows, cols = tried[0].numbers(down), tried[1].numbers(along)
+        except ScanError:
+            continue
+        shape = _shape(rows, cols)
+        if shape[0] * shape[1] > _most_pixels(down):
+            continue
+        filled = np.zeros(shape, bool)
         filled[rows, cols] = True
         cells = np.count_nonzero(filled)
         if cells > most and neighbor_share(filled) >= _FULL:

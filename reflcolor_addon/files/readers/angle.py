@@ -38,6 +38,10 @@ def gridded_by_angle(header, points, valid, reflectance, color, named, options, 
         If it is not known and not found where the scanner stood, or there are too few points.
     """
     usable = valid & (np.abs(points) < 1e9).all(axis=-1)
+    if not usable.any():
+        raise UnusableScan(
+            "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", **header.place
+        )
     if options.position is not None:
         place = np.array(options.position) * 1.0
     else:

@@ -112,16 +112,19 @@ def finish_grid(
         raise UnusableScan(
             "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
         )
-    scan = Scan(
-        name=name,
-        points=in_order(settled.points).view(HandedOver),
-        reflectance=np.where(settled.valid, settled.order.of(reflectance), np.float32(0)),
-        valid=settled.valid,
-        color=settled.order.of(color),
-        pose=settled.pose,
-        source=source,
-        warnings=tuple(warnings),
-    )
+    try:
+        scan = Scan(
+            name=name,
+            points=in_order(settled.points).view(HandedOver),
+            reflectance=np.where(settled.valid, settled.order.of(reflectance), np.float32(0)),
+            valid=settled.valid,
+            color=settled.order.of(color),
+            pose=settled.pose,
+            source=source,
+            warnings=tuple(warnings),
+        )
+    except ScanError as error:
+        raise UnusableScan("{file}: {reason}", file=source.name, reason=error.message) from None
     return scan, settled.order
 
 

@@ -24,7 +24,7 @@ _SHORTEST_RECORD_BEFORE, _COMPRESSED = 54, 0x80
 _LASZIP = ("laszip encoded", 22204)
 _RECORDS = 1 << 20
 # What the child may take: the library and its buffers. Seconds of the processor: far more than the slowest needs.
-_BASE_BYTES, _BASE_SECONDS, _POINTS_PER_SECOND = 1 << 29, 15, 100_000
+_BASE_BYTES, _BASE_SECONDS, _POINTS_PER_SECOND = 1 << 28, 15, 100_000
 _NEVER_COLUMNS = ("x", "y", "z", "red", "green", "blue", "intensity")
 
 

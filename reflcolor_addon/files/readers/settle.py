@@ -83,6 +83,8 @@ class Settled:
             self._origin = np.array(options.position, np.float64)
         self.order = GridOrder(valid.shape)
         self._leave_out_repeated()
+        if not self.valid.any():
+            return
         self._scale()
         self._make_whole()
         self._find_scanner()
