@@ -66,7 +66,8 @@ def mixture(kriging_residuals, path_residuals, apart, expected, picked):
     if least > 0:
         cost = len(apart) * np.array(errors) / least + _EXPECTED_SEEDS * (1 / (1 + _ODDS) - expected) ** 2
         odds = float(_ODDS[np.argmin(cost)])
-    return Mixture(odds ** (1 - picked) * _PICKED_ODDS**picked)
+    # The share at R lies between the two.
+    return Mixture(1 / ((1 - picked) / (1 + odds) + picked / (1 + _PICKED_ODDS)) - 1)
 
 
 def picked_by_a_person(directions, apart, least):
