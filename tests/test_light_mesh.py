@@ -7,6 +7,7 @@ import pytest
 from colored_scans import colored_turn
 from command_line import COLORIZE, blender_tasks
 from gltf_files import Glb
+from small_scans import scan_from_ranges
 
 from reflcolor_addon import Cancelled, OutputError, Scan
 from reflcolor_addon.files.writers.glb import check_glb_size
@@ -16,6 +17,8 @@ from reflcolor_addon.scan.surface import ScanSurface
 from reflcolor_addon.view.fewer_faces import light_mesh
 
 SHAPE = (20, 30)
+# Angle and pixels, from left to right and from the top down.
+DOWN_A_WALL = ((60, 30), (40, 20))
 
 
 def untouched(coordinates, corners, sizes, fixed, faces, **_):
@@ -63,6 +66,37 @@ def test_moved_vertices_keep_their_place_in_the_image_and_take_numbers_of_their_
     np.testing.assert_allclose(along[inside], np.linalg.norm(between, axis=1)[inside], rtol=1e-9)
     nearest = np.linalg.norm(scan.points.reshape(-1, 3)[light.pixel] - light.points, axis=1)
     assert nearest.max() < 0.1
+
+
+def space_of(scan):
+    """The vertices (H, W, 3) as they are given to be merged, of a scan with all returns."""
+    given = []
+
+    def seen(coordinates, corners, sizes, fixed, faces, **_):
+        given.append(coordinates)
+        return untouched(coordinates, corners, sizes, fixed, faces)
+
+    light_mesh(scan, 100, seen, filled=False, max_incidence_deg=90)
+    return given[0].reshape(*scan.shape, 3)
+
+
+def test_where_faces_are_merged_a_wall_is_nearly_flat():
+    azimuth, elevation = (np.radians(span) * (0.5 - (np.arange(count) + 0.5) / count) for span, count in DOWN_A_WALL)
+    ranges = 5 / (np.cos(azimuth) * np.cos(elevation[:, None]))
+    space = space_of(scan_from_ranges(ranges, np.ones(ranges.shape))).reshape(-1, 3).astype(float)
+    flat = space - space.mean(axis=0)
+    off = np.abs(flat @ np.linalg.svd(flat)[2][2])
+    # With the logarithm of the range alone it would be more than ten times as much.
+    assert off.max() < 0.05 * np.ptp(np.log(ranges)) / np.radians(60 / 30)
+
+
+def test_where_faces_are_merged_a_circle_around_the_scanner_is_not_straight():
+    row = space_of(scan_from_ranges(np.full((8, 30), 5.0), np.ones((8, 30))))[-1]
+    chord = row[0] + np.linspace(0, 1, 30)[:, None] * (row[-1] - row[0])
+    step = np.radians(60 / 30)
+    # As far from its chord as a circle of this radius, in pixels, is.
+    expected = (1 - np.cos(np.radians(30))) / step
+    assert np.abs(row - chord)[:, 2].max() == pytest.approx(expected, rel=0.1)
 
 
 def test_what_has_no_return_gives_no_numbers():

@@ -2,7 +2,9 @@
 
 Faces are made fewer in the space of the scan's grid: column, row, and the logarithm of the range, in units of a
 pixel's width. There an error counts by how large it looks from the scanner, and wherever a vertex is moved, its place
-on an image of the grid is known exactly. So an image lies on the light mesh as it does on the scan's own.
+on an image of the grid is known exactly. So an image lies on the light mesh as it does on the scan's own. That space is
+bent so that a plane is nearly flat in it, and a circle around the scanner, such as the edge of its floor, is not
+straight.
 """
 
 import numpy as np
@@ -18,6 +20,8 @@ from .small_holes import nearest_kept
 FEWEST_FACES, MOST_FACES = 100, 100_000_000
 # Shares of the progress.
 _FOUND, _MADE = 0.2, 0.9
+# The space is bent anew for each part of about this angle around the scanner.
+_BENT_RAD = np.pi / 2
 _AROUND = ((0, 0), (0, 1), (1, 0), (1, 1))
 
 
@@ -115,10 +119,12 @@ class _Surface:
         self.sizes = sizes
         self._take(places, np.log(ranges), corners, beyond)
         steps = np.radians(scan.step_deg)
-        steps = np.where(steps > 0, steps, 1.0)
+        self._steps = steps = np.where(steps > 0, steps, 1.0)
         # Pixels, or the logarithm, in the space's unit.
         self._scale = np.array([steps[1], steps[0], 1.0]) / steps[1]
         self._middle = np.median(self._logarithms) if len(self._logarithms) else 0.0
+        # Whole parts of a full turn, so that both sides of its seam are bent alike.
+        self._part = self._width / max(1, round(self._width * steps[1] / _BENT_RAD))
 
     def _take(self, places, logarithms, corners, beyond):
         """Keep the vertices that are used; those on both sides of a full turn's seam once for each side."""
@@ -135,7 +141,16 @@ class _Surface:
     def coordinates(self):
         """(V, 3) float32, as the scanner sees them: to the right, up, and nearer."""
         rows, cols = self._places.T
-        return (np.stack([cols, -rows, self._middle - self._logarithms], axis=1) * self._scale).astype(np.float32)
+        nearer = self._middle - self._logarithms + self._bend(self._places)
+        return (np.stack([cols, -rows, nearer], axis=1) * self._scale).astype(np.float32)
+
+    def _bend(self, places):
+        """(N,) by how much nearer, as a logarithm, places (N, 2) lie in this space: a plane whose normal is an angle of
+        a away has a range that is larger by -log(cos a), which is about a^2 / 2."""
+        rows, cols = places.T
+        across = ((cols + 0.5) % self._part - self._part / 2) * self._steps[1]
+        down = (rows - (self._height - 1) / 2) * self._steps[0]
+        return (across * across + down * down) / 2
 
     def lightened(self, coordinates, triangles, whole):
         """The LightMesh of vertices and triangles in this space."""
@@ -149,7 +164,7 @@ class _Surface:
         places = np.stack([np.clip(-up, 0, self._height - 1), cols], axis=1)
         return LightMesh(
             scan=self._scan,
-            points=self._rays(places) * np.exp(self._middle - nearer)[:, None],
+            points=self._rays(places) * np.exp(self._middle - nearer + self._bend(places))[:, None],
             places=places,
             pixel=self._nearest(coordinates.astype(np.float64), places),
             same=same,
@@ -196,9 +211,10 @@ class _Surface:
         with np.errstate(divide="ignore"):
             logarithms = np.log(np.where(kept, scan.range, 1.0))
         best, found = np.full(len(places), np.inf), np.zeros(len(places), np.int64)
+        own = coordinates[:, 2] / self._scale[2] - self._bend(places)
         for row, col, _ in self._around(places):
             offset = (places[:, 1] - col + self._width / 2) % self._width - self._width / 2
-            depth = self._middle - logarithms[row, col] - coordinates[:, 2] / self._scale[2]
+            depth = self._middle - logarithms[row, col] - own
             away = np.stack([offset, places[:, 0] - row, depth], axis=1) * self._scale
             distance = np.where(kept[row, col], np.einsum("ij,ij->i", away, away), np.inf)
             nearer = distance < best
