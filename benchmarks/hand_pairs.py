@@ -14,7 +14,7 @@ from benchmarks import true_cameras
 from reflcolor_addon import Seeds
 from reflcolor_addon.matching.photo_image import PhotoImage
 from reflcolor_addon.matching.registration import location
-from reflcolor_addon.matching.registration.alignment import aligned
+from reflcolor_addon.matching.registration.alignment import Alignment
 from reflcolor_addon.matching.registration.pairs import camera_from_pairs
 from reflcolor_addon.matching.registration.registration import ScanViews
 
@@ -42,7 +42,7 @@ def main():
             if alone is None or not placed.verified:
                 continue
             found = placed.registration.model
-            last = found if views.stretched else aligned(known.scan, photo, found)
+            last = found if views.stretched else Alignment(known.scan).aligned(photo, found)
             off.append((*(distance(known, camera) for camera in (alone, found, last)), placed.registration.accepted))
         *distances, sure = np.array(off).T
         alone, found, last = (float(np.median(one)) for one in distances)

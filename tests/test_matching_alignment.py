@@ -6,7 +6,7 @@ import painted_room
 import pytest
 
 from reflcolor_addon.matching.photo_image import PhotoImage
-from reflcolor_addon.matching.registration.alignment import aligned
+from reflcolor_addon.matching.registration.alignment import Alignment
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,7 @@ def test_a_picture_of_the_scan_that_was_warped_is_placed_by_a_homography(room):
     matrix = cv2.getPerspectiveTransform(corners, moved)
     picture = cv2.warpPerspective(room.color, matrix, (2 * width, 2 * height))
     camera = painted_room.camera(pitch_deg=-4, focal=0.86, width=2 * width, height=2 * height)
-    found = aligned(room, PhotoImage("picture", picture), camera)
+    found = Alignment(room).aligned(PhotoImage("picture", picture), camera)
     assert found.kind == "homography"
     rows, cols = np.nonzero(room.valid)
     expected = cv2.perspectiveTransform(np.float32(np.column_stack([cols + 0.5, rows + 0.5]))[None], matrix)[0]
@@ -31,7 +31,7 @@ def test_a_picture_of_the_scan_that_was_warped_is_placed_by_a_homography(room):
 
 def test_a_photo_from_aside_keeps_its_camera(room):
     camera = painted_room.camera((0.9, 0.3, 0.2), yaw_deg=-5)
-    found = aligned(room, PhotoImage("photo", painted_room.photo(camera)), camera)
+    found = Alignment(room).aligned(PhotoImage("photo", painted_room.photo(camera)), camera)
     assert found.kind == "pose"
     points = room.points[room.valid]
     off = np.linalg.norm(found.project(points)[0] - camera.project(points)[0], axis=1)

@@ -151,7 +151,10 @@ class GridHomography:
     def jacobian(self, grid_xy, turns):
         """Return (..., 2, 2): what each of two steps, (2, ..., 2) pixels of the grid, moves a place in the photo."""
         here = self.project(grid_xy)[0]
-        return np.stack([self.project(grid_xy + turn)[0] - here for turn in turns], axis=-1)
+        moved = np.empty((*here.shape, 2))
+        for step, turn in enumerate(turns):
+            np.subtract(self.project(grid_xy + turn)[0], here, out=moved[..., step])
+        return moved
 
     def projections(self, candidates, grid_xy, scale):
         """Return (K, N, 2): where K candidates (shifts of the grid's corners) put N places of the grid."""

@@ -92,6 +92,10 @@ class PhotoImage:
         inside : (h, w) bool
             Which places lie in the photo.
         """
+        return gradient_features(*self._gradient(xy, jacobian, inside), inside)
+
+    def _gradient(self, xy, jacobian, inside):
+        """What the photo grows by with a step to the right, and down, in the scan: (h, w) float32 each."""
         import cv2
 
         area = np.abs(jacobian[..., 0, 0] * jacobian[..., 1, 1] - jacobian[..., 0, 1] * jacobian[..., 1, 0])[inside]
@@ -101,9 +105,9 @@ class PhotoImage:
         x, y = (np.where(inside, xy[..., axis] / scale - 0.5, -2).astype(np.float32) for axis in (0, 1))
         own = cv2.remap(edges, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         own_x, own_y = own[..., 0] * inside, own[..., 1] * inside
-        step = np.where(inside[..., None, None], jacobian, 0).astype(np.float32) / np.float32(scale)
-        right, down = (own_x * step[..., 0, axis] + own_y * step[..., 1, axis] for axis in (0, 1))
-        return gradient_features(right, down, inside)
+        step = np.where(inside[..., None, None], jacobian, 0).astype(np.float32)
+        step /= np.float32(scale)
+        return [own_x * step[..., 0, axis] + own_y * step[..., 1, axis] for axis in (0, 1)]
 
 
 def _sized(image, factor):

@@ -4,10 +4,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..files.memory import give_back
 from ..messages import Message
 from ..seeds.seeds import Seeds
 from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
-from .registration.alignment import aligned
+from .registration.alignment import Alignment
 from .registration.location import located
 from .registration.registration import ScanViews
 from .scan_image import reflectance_image
@@ -30,12 +31,13 @@ class _OnScan:
     """One scan and what was found for it."""
 
     scan: object
-    views: ScanViews
+    views: ScanViews | None
     image: object
     superpixels: object
     surface: GridSurface
     locations: list
     warnings: list
+    to_align: bool = False
 
 
 def verified(scans, photos, hand, settings, step, registered=None):
@@ -62,6 +64,9 @@ def verified(scans, photos, hand, settings, step, registered=None):
         for place, location in zip(places, found, strict=True):
             place.locations.append(location)
             place.warnings += location.warnings
+    for place in places:
+        _let_go_of_views(place)
+    give_back()
     observed = _observed(places, photos, step)
     seen = [
         None if own is None else seen_seeds(place.scan, own, place.image, place.superpixels, place.locations, photos)
@@ -80,6 +85,7 @@ def _observed(places, photos, step):
     views = []
     for place in places:
         step(0.87, Message("{scan}: transferring colors", scan=place.scan.name))
+        _align(place, photos)
         views.append([_shown(place, photo, index) for index, photo in enumerate(photos)])
     photo_gains = gains(views)
     observed = []
@@ -97,18 +103,34 @@ def _prepared(scan, settings, step):
     return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), GridSurface(scan), [], [])
 
 
+def _let_go_of_views(place):
+    """Drop the images that photos were sought on, which take much memory."""
+    verified = any(location.verified for location in place.locations)
+    # A camera that was found by stretched measurements is moved away by a further fit.
+    place.to_align = verified and not place.views.stretched
+    place.views = None
+
+
+def _align(place, photos):
+    """Fit the verified photos of a scan once more, where that helps."""
+    if not place.to_align:
+        return
+    alignment = Alignment(place.scan)
+    for index, (photo, location) in enumerate(zip(photos, place.locations, strict=True)):
+        if location.verified:
+            model = alignment.aligned(photo, location.registration.model, camera_only=location.by_hand)
+            # A picture that was warped is placed better by a homography than by the camera that was found.
+            reason = location.reason if location.by_hand else model.kind
+            registration = replace(location.registration, model=model)
+            place.locations[index] = replace(location, registration=registration, reason=reason)
+
+
 def _shown(place, photo, index):
     """The `View` of a photo on a scan; None, and no longer verified, where it shows nothing that could be used."""
     location = place.locations[index]
     if not location.verified:
         return None
     model = location.registration.model
-    if not place.views.stretched:
-        model = aligned(place.scan, photo, model, camera_only=location.by_hand)
-        # A picture that was warped is placed better by a homography than by the camera that was found.
-        reason = location.reason if location.by_hand else model.kind
-        location = replace(location, registration=replace(location.registration, model=model), reason=reason)
-        place.locations[index] = location
     view = seen_by(photo, model, place.surface)
     if np.count_nonzero(view.usable) >= _LEAST_SEEN:
         return view

@@ -5,9 +5,11 @@ every pixel of the scan show that as ghosts beside every edge.
 """
 
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
+from ..grid_angles import GridAngles
 from ..models import GridHomography, within
 from ..scan_image import ScanImage, pixel_steps, reflectance_image
 from .refinement import fitted, tightened
@@ -29,32 +31,48 @@ _ROUNDS = 3
 _STILL = 0.1
 
 
-def aligned(scan, photo, model, *, camera_only=False):
-    """Return the model that fits best near ``model``; the same one where the tiles do not say that another is better.
-
-    A picture that was warped in some program is no camera's any more. Where a homography of the scan's grid fits
-    clearly better than a camera, it is returned instead.
+class Alignment:
+    """What fitting photos on a scan at full resolution needs, computed once, on first use.
 
     Parameters
     ----------
     scan : Scan
-    photo : PhotoImage
-    model : Camera or GridHomography
-    camera_only : bool
-        Whether a camera has to stay one, because a person placed it.
     """
-    vertical, horizontal = pixel_steps(scan)
-    extent = max(scan.shape[0] * vertical, scan.shape[1] * horizontal)
-    images = [ScanImage(scan, reflectance_image(scan, "ranks"), extent / longest) for longest in _LONGEST]
-    if model.kind == "homography":
-        return _refitted(images, photo, _sought(images[0], photo, model))
-    camera = _refitted(images, photo, model)
-    flat = None if camera_only else _flat(images[0], camera, scan.shape)
-    if flat is None or _fit_on(images[0], photo, flat) < _fit_on(images[0], photo, camera) - _WORSE:
-        return camera
-    flat = _refitted(images, photo, _sought(images[0], photo, flat))
-    better = _fit_on(images[-1], photo, flat) > _fit_on(images[-1], photo, camera) + _BETTER_BY
-    return flat if better else camera
+
+    def __init__(self, scan):
+        self._scan = scan
+
+    @cached_property
+    def _images(self):
+        scan = self._scan
+        vertical, horizontal = pixel_steps(scan)
+        extent = max(scan.shape[0] * vertical, scan.shape[1] * horizontal)
+        ranks, angles = reflectance_image(scan, "ranks"), GridAngles.of(scan)
+        return [ScanImage(scan, ranks, extent / longest, angles=angles) for longest in _LONGEST]
+
+    def aligned(self, photo, model, *, camera_only=False):
+        """Return the model that fits best near ``model``; the same where the tiles do not say that another is better.
+
+        A picture that was warped in some program is no camera's any more. Where a homography of the scan's grid fits
+        clearly better than a camera, it is returned instead.
+
+        Parameters
+        ----------
+        photo : PhotoImage
+        model : Camera or GridHomography
+        camera_only : bool
+            Whether a camera has to stay one, because a person placed it.
+        """
+        images = self._images
+        if model.kind == "homography":
+            return _refitted(images, photo, _sought(images[0], photo, model))
+        camera = _refitted(images, photo, model)
+        flat = None if camera_only else _flat(images[0], camera, self._scan.shape)
+        if flat is None or _fit_on(images[0], photo, flat) < _fit_on(images[0], photo, camera) - _WORSE:
+            return camera
+        flat = _refitted(images, photo, _sought(images[0], photo, flat))
+        better = _fit_on(images[-1], photo, flat) > _fit_on(images[-1], photo, camera) + _BETTER_BY
+        return flat if better else camera
 
 
 def _flat(image, camera, grid_shape):

@@ -14,6 +14,8 @@ _LEAST_COVER = 0.5
 _LEAST_SEEN = 64
 # Blocks that are transformed at once: so many stay in a processor's cache.
 _BLOCKS = 64
+# Pixels that are projected at once: few enough for a processor's cache.
+_STRIP_PIXELS = 1 << 15
 # Every sixth pixel is looked at to find which part of the scan a photo shows; and what is taken around that.
 _GLANCE, _MARGIN = 6, 18
 
@@ -105,17 +107,39 @@ class Sighting:
         if part is None:
             return None
         sites, valid = model.sites(scan_image)[part], scan_image.valid[part]
-        xy, depth = model.project(sites)
+        xy, depth = _projected(model, sites)
         seen = visible(model, valid, xy, depth)
         if np.count_nonzero(seen) < _LEAST_SEEN:
             return None
-        jacobian = model.jacobian(sites, model.turns(scan_image)[:, *part])
+        own, distance = scan_image.features[part], scan_image.range[part]
+        jacobian = _jacobian(model, sites, model.turns(scan_image)[:, *part])
         inside = (depth > 0) & within(model, xy)
         features = photo.features(xy, jacobian, inside)
         features *= (inside & (seen | ~valid))[..., None]
         corner = np.array([part[0].start, part[1].start])
-        own, distance = scan_image.features[part], scan_image.range[part]
         return cls(corner, own, features, seen, distance, sites, xy, jacobian)
+
+
+def _projected(model, sites):
+    """Where a model sees (h, w, D) sites, and in what depth."""
+    xy, depth = np.empty((*sites.shape[:2], 2)), np.empty(sites.shape[:2])
+    for rows in _strips(sites):
+        xy[rows], depth[rows] = model.project(sites[rows])
+    return xy, depth
+
+
+def _jacobian(model, sites, turns):
+    jacobian = np.empty((*sites.shape[:2], 2, 2))
+    for rows in _strips(sites):
+        jacobian[rows] = model.jacobian(sites[rows], turns[:, rows])
+    return jacobian
+
+
+def _strips(image):
+    """Slices of some rows of an image each."""
+    height, width = image.shape[:2]
+    rows = max(1, _STRIP_PIXELS // width)
+    return [slice(top, top + rows) for top in range(0, height, rows)]
 
 
 def _laid(valid, size):

@@ -225,7 +225,8 @@ def _nothing(rgb):
     """(h, w) uint8, 1 in large black parts that reach the border of a photo, or that are black without any noise."""
     import cv2
 
-    brightest = rgb.max(axis=-1)
+    # Many times faster than the maximum along an axis.
+    brightest = cv2.max(cv2.max(rgb[..., 0], rgb[..., 1]), rgb[..., 2])
     number, label, stats, _ = cv2.connectedComponentsWithStats((brightest < _DARKEST).astype(np.uint8), connectivity=4)
     large = stats[:, cv2.CC_STAT_AREA] >= _LEAST_NOTHING * label.size
     large[0] = False
