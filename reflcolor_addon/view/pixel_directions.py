@@ -15,22 +15,27 @@ def pixel_directions(scan):
 
     known, width = scan.valid, scan.shape[1]
     rays = np.where(known[..., None], scan.points / np.where(known, scan.range, 1)[..., None], 0)
-    nearest = nearest_kept(known)
-    rows, cols = np.indices(known.shape)
-    found = rays.reshape(-1, 3)[nearest]
-    for way, offset in ((DOWN, rows - nearest // width), (RIGHT, cols - nearest % width)):
+    rows, cols = np.nonzero(~known)
+    source = nearest_kept(known)[rows, cols]
+    lost = rays.reshape(-1, 3)[source]
+    for way, offset in ((DOWN, rows - source // width), (RIGHT, cols - source % width)):
         both = known & _beside(known, way)
         if way == DOWN:
             both[-1] = False
         elif not scan.full_turn:
             both[:, -1] = False
-        step = np.where(both[..., None], _beside(rays, way) - rays, 0)
-        sums = cv2.blur(np.dstack([step, both]), (_STEP_WINDOW, _STEP_WINDOW), borderType=cv2.BORDER_REPLICATE)
+        step = _beside(rays, way)
+        step -= rays
+        step[~both] = 0
         usual = step.sum(axis=(0, 1)) / max(both.sum(), 1)
-        near = sums[..., 3:] > 1e-9
-        mean = np.where(near, sums[..., :3] / np.where(near, sums[..., 3:], 1), usual)
-        found = found + mean.reshape(-1, 3)[nearest] * offset[..., None]
-    return found / np.maximum(np.linalg.norm(found, axis=-1, keepdims=True), 1e-12)
+        window = (_STEP_WINDOW, _STEP_WINDOW)
+        sums = cv2.blur(np.dstack([step, both]), window, borderType=cv2.BORDER_REPLICATE).reshape(-1, 4)[source]
+        near = sums[:, 3:] > 1e-9
+        mean = np.where(near, sums[:, :3] / np.where(near, sums[:, 3:], 1), usual)
+        lost = lost + mean * offset[:, None]
+    rays[rows, cols] = lost
+    rays /= np.maximum(np.linalg.norm(rays, axis=-1, keepdims=True), 1e-12)
+    return rays
 
 
 def _beside(grid, way):
