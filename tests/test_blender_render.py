@@ -194,6 +194,32 @@ def test_another_look_is_taken_up_at_once(holed, look):
     assert [socket.is_linked for socket in strength] == [look == "lit"]
 
 
+@pytest.mark.parametrize("filled", [True, False])
+@pytest.mark.parametrize("look", ["archive", "lit"])
+def test_a_picture_shows_the_same_when_all_else_was_removed(holed, tmp_path, look, filled):
+    blender, obj, _ = holed
+    scene = blender.context.scene
+    scene.reflcolor.picture_look, scene.reflcolor.picture_filled = look, filled
+    add_shades(obj)
+    scene.render.resolution_percentage, scene.cycles.samples = 20, 1
+    pictures = []
+    for number in range(2):
+        scene.render.filepath = str(tmp_path / f"{number}.png")
+        blender.ops.render.render(write_still=True)
+        pictures.append(cv2.imread(scene.render.filepath))
+        if number == 0:
+            module = importlib.import_module(f"{EXTENSION}.operators.scene.picture_only")
+            module.leave_picture_only(blender.context, [obj])
+    assert "reflectance" not in obj.data.attributes and not obj.modifiers
+    assert len(np.unique(pictures[0])) > 20
+    np.testing.assert_array_equal(*pictures)
+
+
+def add_shades(obj):
+    levels = np.linspace(0.1, 0.9, 4 * len(obj.data.vertices), dtype=np.float32)
+    obj.data.color_attributes["Reflectance_Gray"].data.foreach_set("color_srgb", levels)
+
+
 def test_the_panel_knows_that_holes_and_mixed_returns_need_another_set_up(startup_scan):
     properties, render = (
         importlib.import_module(f"{EXTENSION}.operators.scene.{name}") for name in ("properties", "render")

@@ -84,6 +84,30 @@ def remove_surface(obj):
         bpy.data.meshes.remove(added.data)
 
 
+def apply_surface(context, obj, *, smooth):
+    """Make what renders show of a scan its object's mesh; nothing is left of the scan's own.
+
+    ``smooth`` tells whether anything reads the smooth normals.
+    """
+    modifier = obj.modifiers.get(MODIFIER)
+    if modifier is None:
+        return
+    if not modifier.show_render:
+        remove_surface(obj)
+        return
+    for node in modifier.node_group.nodes:
+        if node.bl_idname == "GeometryNodeStoreNamedAttribute" and node.inputs["Name"].default_value == SMOOTH_NORMAL:
+            node.mute = not smooth
+    modifier.show_viewport = True
+    depsgraph = context.evaluated_depsgraph_get()
+    measured = obj.data
+    obj.data = bpy.data.meshes.new_from_object(
+        obj.evaluated_get(depsgraph), preserve_all_data_layers=True, depsgraph=depsgraph
+    )
+    remove_surface(obj)
+    bpy.data.meshes.remove(measured)
+
+
 @contextmanager
 def as_measured(objects):
     """Within the block, viewports show the measured surface of scans' objects alone."""

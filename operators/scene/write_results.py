@@ -4,6 +4,7 @@ import bpy
 
 from ...reflcolor_addon.errors import OutputError
 from ...reflcolor_addon.files.atomic import written_atomically
+from ...reflcolor_addon.files.memory import give_back
 from ...reflcolor_addon.messages import Message
 from ...reflcolor_addon.scan.object_arrays import object_arrays
 from ...reflcolor_addon.view.shown_surface import shown_surface
@@ -13,6 +14,7 @@ from .colorized_object import show_colorization
 from .light_object import add_light_object
 from .photo_colors import keep_cameras, keep_observed, observed_cameras, use_cameras
 from .photo_texture import show_texture
+from .picture_only import leave_picture_only
 from .provenance import record_provenance
 from .render import render, set_up_picture
 from .scan_object import COLORIZED
@@ -46,11 +48,14 @@ def write_results(jobs, paths, render_path, picture, progress):
     objects, surfaces = [], {}
     for job in jobs:
         progress(0.0, "Building the scene")
+        give_back()
+        # A light mesh has its holes filled; filled holes have no place on a texture.
+        filled = pictured and picture.filled and job.texture is None
+        surface = shown_surface(job.scan, drop_mixed=picture.drop_mixed) if filled else None
         obj = _add_object(context, job)
         objects.append(obj)
-        # A light mesh has its holes filled; filled holes have no place on a texture.
-        if pictured and picture.filled and job.texture is None:
-            surfaces[obj.name] = shown_surface(job.scan, drop_mixed=picture.drop_mixed)
+        if surface is not None:
+            surfaces[obj.name] = surface
     for obj in objects:
         obj.select_set(True)
     context.view_layer.objects.active = objects[0]
@@ -58,8 +63,9 @@ def write_results(jobs, paths, render_path, picture, progress):
     if pictured:
         # A view of all scans of a site together would be from far above.
         set_up_picture(context, objects[0], picture, surfaces)
+        surfaces.clear()
     if render_path is not None:
-        steps.append((render_path, lambda path: render(context, path)))
+        steps.append((render_path, lambda path: _render(context, objects, path)))
     for done, (path, write) in enumerate(steps):
         progress(done / len(steps), Message("Writing {name}", name=path.name))
         _write(path, write)
@@ -98,6 +104,12 @@ def _write(path, write):
             raise OutputError(
                 "{file}: cannot be written ({reason}); choose another folder", file=path, reason=blender_reason(error)
             ) from error
+
+
+def _render(context, objects, path):
+    # Everything else is written; the scene ends with its picture.
+    leave_picture_only(context, objects)
+    render(context, path)
 
 
 def _write_blend(path):

@@ -12,6 +12,7 @@ from ..color.colorization import Colorization
 from ..color.colorizer import colorize
 from ..errors import ScanError, SeedsError
 from ..files.images import read_image
+from ..files.memory import give_back
 from ..matching import grid_texture, match_site, shots_of, texture
 from ..messages import Message, about_scan, value_of
 from ..progress import part
@@ -77,6 +78,7 @@ def run_plan(plan, session):
                     progress=session.progress,
                     cancelled=session.cancelled,
                 )
+            give_back()
             session.matchings |= {job.label: job.matching for job in jobs}
             _report_matching(jobs, plan, session)
         jobs = _shown(jobs, plan, session)
@@ -90,6 +92,7 @@ def run_plan(plan, session):
                 with timed(job.times, "colorize"):
                     progress = part(session.progress, number, count, job.name)
                     colorize_job(job, plan.settings, progress=progress, cancelled=session.cancelled)
+                give_back()
                 if plan.texture:
                     with timed(job.times, "texture"):
                         _add_texture(job, plan, progress, session.cancelled)

@@ -86,18 +86,22 @@ class _Writer:
                 if output.kind == PREVIEW:
                     write_jpeg(output.path, preview(job.scan, job.colorization))
             self._write_meshes([job], job.outputs)
-            self._write_scenes([job], job.outputs)
-        # Larger arrays are not kept until all scans are colorized.
-        colors = None if job.colorization is None else job.colorization.rgb
-        self._rest.append((job, job.texture if self._plan.texture else colors))
+            # Larger arrays are not kept until all scans are colorized, and no scene needs them once it is built.
+            self._rest.append((job, self._image(job)))
+            self._write_scenes([job] if self._shared else _let_go([job]), job.outputs)
         if not self._shared:
             job.let_go()
+
+    def _image(self, job):
+        if self._plan.texture:
+            return job.texture
+        return None if job.colorization is None else job.colorization.rgb
 
     def finish(self):
         """Write the scenes that hold all scans, images, and last the reports: those say how long the rest took."""
         with timed(shared := {}, "write"):
             self._write_meshes([job for job, _ in self._rest], self._shared)
-            self._write_scenes(self._let_go(), self._shared)
+            self._write_scenes(_let_go([job for job, _ in self._rest]), self._shared)
         for job, rgb in self._rest:
             with timed(job.times, "write"):
                 for output in job.outputs:
@@ -125,11 +129,6 @@ class _Writer:
 
     def _show_writing(self, output):
         self._session.progress(1.0, Message("Writing {name}", name=output.path.name))
-
-    def _let_go(self):
-        for job, _ in self._rest:
-            yield job
-            job.let_go()
 
     def _report(self, job):
         for role, path in job.inputs:
@@ -185,6 +184,13 @@ class _Writer:
         render = next((output.path for output in outputs if output.kind == RENDER), None)
         if paths or render is not None:
             self._session.blender.write_scene(jobs, paths, render, self._plan.picture, self._session.progress)
+
+
+def _let_go(jobs):
+    """Each job, which holds no larger arrays any more when the next one is asked for."""
+    for job in jobs:
+        yield job
+        job.let_go()
 
 
 def _write_seeds(job, _plan, path):

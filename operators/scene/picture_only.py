@@ -1,0 +1,41 @@
+"""Leaves of a scene what its picture shows, so that a render takes less memory and time."""
+
+from ...reflcolor_addon.files.memory import give_back
+from .picture_material import SMOOTH_NORMAL
+from .shown_surface import MIXED, apply_surface
+
+
+def leave_picture_only(context, objects):
+    """Leave of scans' objects only what the render of a scene reads; it is of no other use any more.
+
+    The picture is the same to the bit.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    objects : list of bpy.types.Object
+        Set up by `set_up_picture`.
+    """
+    for obj in objects:
+        read = _read_by_materials(obj.data)
+        _strip(obj.data, read | {MIXED})
+        context.view_layer.update()
+        give_back()
+        apply_surface(context, obj, smooth=SMOOTH_NORMAL in read)
+        _strip(obj.data, read)
+    # Blender keeps what it evaluated until then.
+    context.view_layer.update()
+    give_back()
+
+
+def _read_by_materials(mesh):
+    """Names of the attributes and UV maps that the materials of a mesh read."""
+    trees = [material.node_tree for material in mesh.materials if material is not None and material.node_tree]
+    nodes = [node for tree in trees for node in tree.nodes]
+    named = {node.attribute_name for node in nodes if node.type == "ATTRIBUTE"}
+    return named | {node.uv_map for node in nodes if node.type == "UVMAP"}
+
+
+def _strip(mesh, kept):
+    for name in [each.name for each in mesh.attributes if not each.is_required and each.name not in kept]:
+        mesh.attributes.remove(mesh.attributes[name])
