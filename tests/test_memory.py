@@ -1,5 +1,9 @@
 """Work that cannot fit into memory is refused in one line before it starts."""
 
+import os
+from pathlib import Path
+
+import numpy as np
 import pytest
 
 from reflcolor_addon.errors import ReflcolorError, ScanError
@@ -32,3 +36,19 @@ def test_a_container_with_less_than_its_machine_decides(monkeypatch):
     monkeypatch.setattr(memory, "_free_of_the_container", lambda: 10)
     monkeypatch.setattr(memory.sys, "platform", "linux")
     assert memory.available_bytes() == 10
+
+
+@pytest.mark.skipif(memory._trim() is None, reason="the C library has no function for it")
+def test_freed_memory_goes_back_to_the_system():
+    blocks = [np.ones(100_000, np.uint8) for _ in range(1000)]
+    # What stays at the end keeps the C library from shrinking the heap by itself.
+    last = np.ones(100_000, np.uint8)
+    del blocks
+    before = held()
+    memory.give_back()
+    assert before - held() > 50e6 and last.all()
+
+
+def held():
+    """Bytes that the process holds."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
