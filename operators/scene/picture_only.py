@@ -4,6 +4,9 @@ from ...reflcolor_addon.files.memory import give_back
 from .picture_material import SMOOTH_NORMAL
 from .shown_surface import MIXED, apply_surface
 
+# Attributes that say how faces are shaded.
+_SHADING = {"material_index", "sharp_edge", "sharp_face"}
+
 
 def leave_picture_only(context, objects):
     """Leave of scans' objects only what the render of a scene reads; it is of no other use any more.
@@ -17,7 +20,7 @@ def leave_picture_only(context, objects):
         Set up by `set_up_picture`.
     """
     for obj in objects:
-        read = _read_by_materials(obj.data)
+        read = _read_by_materials(obj.data) | _SHADING
         _strip(obj.data, read | {MIXED})
         context.view_layer.update()
         give_back()
