@@ -102,6 +102,15 @@ def test_a_scan_and_a_photo_that_cannot_be_used_are_named_before_anything_is_beg
     assert not (archive / "colored").exists()
 
 
+def test_a_scan_without_a_grid_is_told_the_way_out_that_a_manifest_has(archive, batch):
+    (archive / "old").mkdir()
+    (archive / "old" / "cloud.pts").write_text("1 2 3 4\n2 3 4 5\n")
+    (archive / "batch.toml").write_text(HEAD + 'scans = "old/*"\nseeds = "hall_0.seeds.json"\n', encoding="utf-8")
+    status, _, err = batch("--check")
+    assert status == 2 and "line 4: old/cloud.pts: scan 'cloud' has no grid" in err
+    assert 'in the manifest: reading = { grid = "angle" }' in err
+
+
 def test_what_is_there_twice_is_worked_on_once_and_told(archive, batch):
     rng = np.random.default_rng(0)
     write_png(archive / "a.png", rng.integers(0, 256, (40, 60, 3)).astype(np.uint8))

@@ -189,6 +189,7 @@ def test_everything_wrong_is_named_at_once_with_its_line(folder):
         (HEAD + 'scans = "hall_0.ptx"\n', "has neither seeds nor photos"),
         ('format = "reflcolor-batch"\nversion = 1\n', "output: is missing"),
         (HEAD + 'pairs = "no.csv"\n', "there is no file no.csv"),
+        (HEAD + 'pairs = "colored/pairs.csv"\n', "the batch writes colored/pairs.csv anew each time"),
         (HEAD.replace('"colored"', '"a\\u0000b"'), "holds a null character"),
         (HEAD + f"faces = {'9' * 5000}\n", "is not TOML"),
     ],

@@ -8,6 +8,9 @@ from ...files.readers import scan_pixels
 from ...messages import Message
 from .costs import Costs
 
+_WAYS = {"--grid angle": 'reading = { grid = "angle" }', "--step 2": "reading = { step = 2 }"}
+"""What a manifest has for options of the command line that errors of readers name."""
+
 
 def check_files(manifest, items, refuse, *, decode, progress):
     """Look at every scan and photo of some items.
@@ -40,7 +43,7 @@ def check_files(manifest, items, refuse, *, decode, progress):
         try:
             return act()
         except (ReflcolorError, UsageError) as error:
-            problem = _naming(error.message, path, name)
+            problem = _with_way(_naming(error.message, path, name))
             refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=line, problem=problem))
             return None
 
@@ -53,6 +56,12 @@ def check_files(manifest, items, refuse, *, decode, progress):
         if size is not None:
             found.photos[path] = size[0] * size[1]
     return found
+
+
+def _with_way(message):
+    """A message that names an option of the command line, with what a manifest has for it."""
+    ways = [way for option, way in _WAYS.items() if option in message]
+    return Message("{problem}; in the manifest: {way}", problem=message, way=ways[0]) if ways else message
 
 
 def _naming(message, path, name):

@@ -94,6 +94,12 @@ class _Reader:
         pairs = whole.get("pairs", str)
         if pairs is not None and not (self._path.parent / pairs).is_file():
             whole.refuse("pairs", "pairs: there is no file {path}", path=pairs)
+        if pairs is not None and (self._path.parent / pairs).absolute() == self._folder.pairs.absolute():
+            whole.refuse(
+                "pairs",
+                "pairs: the batch writes {path} anew each time; name a copy of it, with another name",
+                path=pairs,
+            )
         items = self._items(pool)
         if not items:
             whole.refuse("scans" if "scans" in whole else None, "no scan is named; give scans = [...]")
