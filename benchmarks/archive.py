@@ -43,13 +43,14 @@ def main():
     parser.add_argument("--photos", type=int, default=40)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0, help="another number is another archive")
+    parser.add_argument("--irregular", action="store_true", help="rooms painted in patches of many sizes, not squares")
     parser.add_argument("--sample", type=int, default=20, help="how many wrong pairs are matched for their cost")
     parser.add_argument("--folder", type=Path, help="where to put the archive, and to keep it")
     parser.add_argument("--minutes", type=float, default=1e6, help="stop after so long; the next call goes on")
     arguments = parser.parse_args()
     folder = arguments.folder or Path(tempfile.mkdtemp(prefix="archive-"))
     folder.mkdir(parents=True, exist_ok=True)
-    right = make(folder, arguments.scans, arguments.photos, arguments.seed)
+    right = make(folder, arguments.scans, arguments.photos, arguments.seed, arguments.irregular)
     known = _Known(folder / "measured.json", time.monotonic() + 60 * arguments.minutes)
     pairs = sorted((f"scan_{scan:02d}", f"photo_{photo:02d}") for scan, photo in right)
     true = [known.of("+".join(pair), lambda pair=pair: matched(folder, *pair)) for pair in pairs]
@@ -97,7 +98,7 @@ class _Known:
         self._path.write_text(json.dumps(self._values, indent=1))
 
 
-def make(folder, scans, photos, seed=0):
+def make(folder, scans, photos, seed=0, irregular=False):
     """Write an archive and its manifest, batch.toml; return which pairs (scan, photo) show the same room."""
     rng, first = np.random.default_rng((seed, 5)), 1000 * seed
     scanned = scans - scans // 6
@@ -108,11 +109,11 @@ def make(folder, scans, photos, seed=0):
     for scan, room in enumerate(rooms):
         path = folder / f"scan_{scan:02d}.ptx"
         if not path.is_file():
-            write_ptx(Room(room).scan(place=_ASIDE if scan >= scanned else (0, 0), name=path.stem), path)
+            write_ptx(Room(room, irregular).scan(place=_ASIDE if scan >= scanned else (0, 0), name=path.stem), path)
     for photo, room in enumerate(shown):
         path = folder / f"photo_{photo:02d}.png"
         if not path.is_file():
-            write_png(path, Room(room).photo(photo))
+            write_png(path, Room(room, irregular).photo(photo))
     lines = ('format = "reflcolor-batch"', "version = 1", 'output = "colored"', 'scans = "scan_*.ptx"')
     lines += ('photos = "photo_*.png"', 'write = "png"', f"settings = {{ slic_segments = {SEGMENTS} }}")
     (folder / "batch.toml").write_text("\n".join(lines) + "\n")

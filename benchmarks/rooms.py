@@ -15,9 +15,12 @@ class Room:
     Parameters
     ----------
     number : int
+    irregular : bool
+        Paint it in patches of many sizes, instead of squares of one size on each surface. Squares on the walls of
+        different rooms have the same edges, as tiles have.
     """
 
-    def __init__(self, number):
+    def __init__(self, number, irregular=False):
         rng = np.random.default_rng((number, 1))
         self._number = number
         self._size = width, depth, height = rng.uniform(4, 9), rng.uniform(4, 9), rng.uniform(2.6, 4)
@@ -30,7 +33,7 @@ class Room:
                 faces += _box((x, y, size[2] / 2), size)
         for _ in range(rng.integers(12, 20)):
             faces.append(self._on_a_wall(rng))
-        self._faces = [(*face, *_paint(rng, face)) for face in faces]
+        self._faces = [(*face, *_paint(rng, face, irregular)) for face in faces]
 
     def _on_a_wall(self, rng):
         """A door, a window or a painting."""
@@ -63,7 +66,7 @@ class Room:
         """
         nearest, light = np.full(rays.shape[:-1], np.inf), np.zeros(rays.shape)
         reflectance = np.zeros(rays.shape[:-1])
-        for corner, first, second, cell, paint, infrared in self._faces:
+        for corner, first, second, cuts, paint, infrared in self._faces:
             normal = np.cross(first, second)
             normal /= np.linalg.norm(normal)
             with np.errstate(divide="ignore", invalid="ignore"):
@@ -73,7 +76,7 @@ class Room:
             met = (distance > 1e-6) & (distance < nearest)
             for length, side in zip(along, (first, second), strict=True):
                 met &= (length >= 0) & (length <= np.linalg.norm(side))
-            row, column = ((length[met] / cell).astype(int) for length in along)
+            row, column = (np.searchsorted(cut, length[met], "right") for cut, length in zip(cuts, along, strict=True))
             # Floors and ceilings are lit otherwise than walls.
             shade = 0.55 + 0.27 * abs(normal[0]) + 0.2 * abs(normal[2])
             light[met], reflectance[met] = paint[row, column] * shade, infrared[row, column]
@@ -122,11 +125,18 @@ def _box(center, size):
     return [(low, x, z), (low + y, x, z), (low, y, z), (low + x, y, z), (low, x, y), (low + z, x, y)]
 
 
-def _paint(rng, face):
-    """The size of a face's patches in meters, their colors and their reflectance in infrared, which is its own."""
+def _paint(rng, face, irregular):
+    """Where a face's patches end along both sides, in meters, their colors and their reflectance in infrared, which is
+    its own."""
     cell = rng.choice([0.25, 0.4, 0.6])
     shape = tuple(int(np.linalg.norm(side) / cell) + 1 for side in face[1:])
     base, spread = rng.uniform(0.15, 0.9, 3), rng.uniform(0.1, 0.3)
     paint = base + spread * rng.standard_normal((*shape, 1)) + 0.1 * rng.standard_normal((*shape, 3))
     infrared = rng.uniform(0.2, 0.9) + spread * rng.standard_normal(shape)
-    return cell, np.clip(paint, 0.03, 1), np.clip(infrared, 0.02, 1)
+    cuts = [cell * np.arange(1, count) for count in shape]
+    if irregular:
+        # As many patches as before, of sizes of their own.
+        sizes = [rng.uniform(0.2, 1.8, count) for count in shape]
+        lengths = [np.linalg.norm(side) for side in face[1:]]
+        cuts = [np.cumsum(own)[:-1] * length / own.sum() for own, length in zip(sizes, lengths, strict=True)]
+    return cuts, np.clip(paint, 0.03, 1), np.clip(infrared, 0.02, 1)
