@@ -4,22 +4,17 @@ Its errors are collected and reported together, each with its line.
 """
 
 import tomllib
-from dataclasses import replace
-from difflib import get_close_matches
 from pathlib import Path
 
-from ...errors import SettingsError, UsageError
+from ...errors import UsageError
 from ...files.gate import contents
 from ...files.images import IMAGE_SUFFIXES
-from ...files.readers.options import AS_IT_IS, with_option
-from ...messages import Message
-from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
-from ...view.fewer_faces import FEWEST_FACES, MOST_FACES
 from ..paths import files_of_each
-from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, default_settings, filled
+from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, filled
 from .folder import BatchFolder
 from .manifest import Item, Manifest
 from .manifest_table import ManifestTable, last_value
+from .manifest_values import faces_of, reading_of, settings_of
 from .names import item_names
 from .toml_lines import TomlLines
 
@@ -214,10 +209,10 @@ class _Reader:
             seeds=seeds,
             hand=hand,
             photos=tuple(photos),
-            settings=self._settings(chain),
-            reading=self._reading(chain),
+            settings=settings_of(chain),
+            reading=reading_of(chain),
             outputs=outputs,
-            faces=self._faces(chain),
+            faces=faces_of(chain),
         )
         return Item(name=name, plan=plan, offered=offered, line=self._lines.of(*place))
 
@@ -286,56 +281,6 @@ class _Reader:
         if last_value(chain, "render", bool, False):
             found.append(Output("render", self._folder.render(PLACEHOLDER), RENDER))
         return (*found, *self._folder.records(PLACEHOLDER))
-
-    def _faces(self, chain):
-        found = last_value(chain, "faces", int, None)
-        if found is None or FEWEST_FACES <= found <= MOST_FACES:
-            return found
-        table = next(table for table in reversed(chain) if "faces" in table)
-        table.refuse(
-            "faces",
-            "faces {found}: expected a whole number from {least} to {most}",
-            found=found,
-            least=FEWEST_FACES,
-            most=MOST_FACES,
-        )
-        return None
-
-    def _settings(self, chain):
-        preset = last_value(chain, "preset", str, DEFAULT_PRESET)
-        name = next((name for name in PRESETS if name.casefold() == preset.casefold()), None)
-        if name is None:
-            table = next(table for table in reversed(chain) if "preset" in table)
-            table.refuse("preset", "preset {found!r}: expected one of {known}", found=preset, known=", ".join(PRESETS))
-        settings = default_settings(name or DEFAULT_PRESET)
-        for table in chain:
-            for key, value in table.get("settings", dict, {}).items():
-                settings = self._with_setting(table, settings, key, value)
-        return settings
-
-    def _reading(self, chain):
-        """How the scans of an item are read."""
-        options = AS_IT_IS
-        for table in chain:
-            for key, value in table.get("reading", dict, {}).items():
-                try:
-                    options = with_option(options, key, value)
-                except UsageError as error:
-                    table.refuse(("reading", key), "reading: {problem}", problem=error.message)
-        return options
-
-    def _with_setting(self, table, settings, key, value):
-        if key not in SETTINGS:
-            near = get_close_matches(key, SETTINGS, 1)
-            hint = Message("; did you mean {name}?", name=near[0]) if near else ""
-            table.refuse(("settings", key), "unknown setting {key!r}{hint}", key=key, hint=hint)
-            return settings
-        try:
-            value = SETTINGS[key].named(value) if isinstance(value, str) else value
-            return replace(settings, **{key: value})
-        except SettingsError as error:
-            table.refuse(("settings", key), "{problem}", problem=error.message)
-            return settings
 
 
 def _merged(values):

@@ -120,8 +120,9 @@ def _report_duplicates(context):
 
 
 def _correct_items(context, states):
-    """Record that items are done which failed in an earlier run, in a part that is not asked for any more."""
+    """Record that items are done which failed in an earlier run, in a part that is not asked for any more, or were
+    duplicates then."""
     for state in states:
         known = context.folder.recall(ITEMS, state.item.name) or {}
-        if state.outcome == KNOWN and known.get("outcome") == FAILED:
+        if state.outcome == KNOWN and known.get("outcome") in (FAILED, DUPLICATE):
             remember_item(context, state)
