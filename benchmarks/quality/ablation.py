@@ -167,12 +167,12 @@ def variants(case):
     for share in (0.4, 0.6, 0.8):
         yield f"share of kriging {share} at every pixel", case.errors(case.mix(paths, krige, share=share)[0])
     for name, share in (
-        ("smoothed reflectance alone", lambda weight, picked: np.float32(0)),
-        ("reflectance as it is alone", lambda weight, picked: np.float32(picked)),
-        ("half of each", lambda weight, picked: np.float32(picked / 2)),
+        ("paths over the smoothed reflectance alone", lambda weight, picked: np.float32(0)),
+        ("paths over the reflectance as it is alone", lambda weight, picked: np.float32(picked)),
+        ("half of each kind of path", lambda weight, picked: np.float32(picked / 2)),
     ):
         yield (
-            f"seeds picked by hand: paths over the {name}",
+            f"seeds picked by hand: {name}",
             case.errors(case.mix(case.paths(unsmoothed=share), krige)[0]),
         )
     for sigma in (0.0, 2.0):
