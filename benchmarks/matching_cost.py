@@ -5,10 +5,11 @@
 prints them for all cases beside an older build, of which BASE is a checkout; the two take turns, figures are medians.
 "Finding" is the part until cameras are found or photos refused; what follows transfers colors.
 
-    python -m benchmarks.matching_cost SCAN PHOTO MODE
+    python -m benchmarks.matching_cost SCAN PHOTO MODE [COUNT]
 
 SCAN is a scan of geodesic_cases.SCANS, enlarged; PHOTO any real scan, whose colors are the photo, or "warped" for the
-scan's own, warped; MODE is verified or paper. Linux alone tells the peak.
+scan's own, warped; MODE is verified or paper; of COUNT photos each is cut narrower than the one before. Linux alone
+tells the peak.
 
 Prints JSON: seconds, seconds of the processor, in all and until cameras are found, bytes at the peak beyond what was
 there before, the longest seconds between two words of progress, and what is said of the photo.
@@ -31,6 +32,8 @@ from reflcolor_addon import Settings
 from reflcolor_addon.matching import match_photos
 
 PIXELS = 12e6
+# Columns by which each further photo is narrower.
+_CUT = 100
 CASES = (
     ("doria", "warped"),
     ("doria", "k4a"),
@@ -80,8 +83,9 @@ def main():
     if len(sys.argv) < 4:
         beside(Path(sys.argv[1]).resolve(strict=True), int(sys.argv[2]) if len(sys.argv) > 2 else 3)
         return
-    scan_name, photo_name, mode = sys.argv[1:]
+    scan_name, photo_name, mode, *count = sys.argv[1:]
     scan, photo = geodesic_cases.whole_scan(scan_name, 1), enlarged_photo(scan_name, photo_name)
+    photos = [photo[:, : photo.shape[1] - number * _CUT] for number in range(int(count[0]) if count else 1)]
     Path("/proc/self/clear_refs").write_text("5")
     before, processor, told, found = status("VmRSS"), time.process_time(), [time.perf_counter()], []
 
@@ -90,7 +94,7 @@ def main():
         if "transferring colors" in str(text):
             found.append(time.process_time() - processor)
 
-    matching = match_photos(scan, [photo], Settings(matching=mode), progress=progress)
+    matching = match_photos(scan, photos, Settings(matching=mode), progress=progress)
     told.append(time.perf_counter())
     processor = time.process_time() - processor
     cost = {
