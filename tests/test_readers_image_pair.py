@@ -199,8 +199,8 @@ def test_gray_colors_are_no_colors(folder):
         ({"model": {"type": "pinhole", "fx": 1, "fy": 1, "cx": 1}}, "model.cy: is missing"),
         ({"model": {**PINHOLE, "k1": 1}}, "model.k1: unknown key, expected one of type, fx, fy, cx, cy, distortion"),
         ({"model": {**PINHOLE, "distortion": [1, 2]}}, "model.distortion: expected 4, 5 or 8 numbers"),
-        ({"model": {**PANORAMA, "azimuth_deg": [0, 361]}}, "two different numbers at most 360 degrees apart"),
-        ({"model": {**PANORAMA, "azimuth_deg": [5, 5]}}, "two different numbers at most 360 degrees apart"),
+        ({"model": {**PANORAMA, "azimuth_deg": [0, 361]}}, "two numbers 0.000001 to 360 degrees apart"),
+        ({"model": {**PANORAMA, "azimuth_deg": [5, 5]}}, "two numbers 0.000001 to 360 degrees apart"),
         ({"model": {**PANORAMA, "elevation_deg": [-45, 91]}}, "model.elevation_deg: expected a number from -90 to 90"),
         (
             {"model": {**PANORAMA, "elevation_deg": 45}},
