@@ -39,6 +39,13 @@ from reflcolor_addon.scan.surface import ScanSurface
 _SHAPE = (90, 120)
 _SECONDS_TOGETHER = 5.0
 _FULL_KB = 200
+_BEGUN = """
+import os, runpy
+from reflcolor_addon.cli import interruption
+listen = interruption.leave_at_once
+interruption.leave_at_once = lambda: (listen(), os.close({writer}))
+runpy.run_module('reflcolor_addon', run_name='__main__')
+"""
 _STATUS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 
 
@@ -203,8 +210,8 @@ def _signals(folder, moments):
             (folder / name).unlink(missing_ok=True)
         number = random.choice(list(_STATUS))
         reader, writer = os.pipe()
-        # The program says that it has begun by closing the pipe that only its first line knows of.
-        begun = f"import os, runpy; os.close({writer}); runpy.run_module('reflcolor_addon', run_name='__main__')"
+        # The program says that it has begun by closing a pipe when its first line is done.
+        begun = _BEGUN.format(writer=writer)
         process = subprocess.Popen(
             [sys.executable, "-c", begun, *line[3:]],
             **settings,
