@@ -49,6 +49,11 @@ _FORMATS = {
         "Schrittweite: erwartet eine ganze Zahl ab 1, gefunden {found}"
     ),
     "{name}: expected one of {choices}, found {found}": "{name}: erwartet eines von {choices}, gefunden {found}",
+    "unknown option {name}; expected one of {known}": "unbekannte Einstellung {name}; erwartet eine von {known}",
+    "position: expected three numbers, found {found}": "position: erwartet drei Zahlen, gefunden {found}",
+    "{name}: expected {expected}, found {found}": "{name}: erwartet {expected}, gefunden {found}",
+    "true or false": "true oder false",
+    "a text in quotes": "ein Text in Anführungszeichen",
     "{file}: is UTF-16 text, expected plain text: save it as ASCII or UTF-8": (
         "{file}: ist Text in UTF-16, erwartet einfacher Text: als ASCII oder UTF-8 speichern"
     ),

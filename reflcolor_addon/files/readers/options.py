@@ -3,6 +3,7 @@
 from dataclasses import asdict, dataclass, fields, replace
 
 from ...errors import UsageError
+from ...messages import Message
 
 UNITS = {"m": 1.0, "mm": 0.001, "cm": 0.01, "ft": 0.3048, "in": 0.0254}
 """Meters per unit."""
@@ -11,6 +12,7 @@ AUTO = "auto"
 TURNS = (0, 90, 180, 270)
 RETURNS = ("first", "strongest", "last")
 STORED, ANGLE = "stored", "angle"
+_KINDS = {int: Message("a whole number"), bool: Message("true or false"), str: Message("a text in quotes")}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,8 +103,9 @@ def with_option(options, name, value):
             raise UsageError("position: expected three numbers, found {found}", found=str(value))
         value = tuple(map(float, numbers))
     elif type(value) is not kinds[name]:
-        expected = {int: "a whole number", bool: "true or false", str: "a text in quotes"}[kinds[name]]
-        raise UsageError("{name}: expected {expected}, found {found}", name=name, expected=expected, found=str(value))
+        raise UsageError(
+            "{name}: expected {expected}, found {found}", name=name, expected=_KINDS[kinds[name]], found=str(value)
+        )
     return replace(options, **{name: value})
 
 
