@@ -147,7 +147,7 @@ def _set_up_scene(scene):
     scene.render.image_settings.color_mode = "RGB"
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
-    scene.cycles.samples = 8
+    scene.cycles.samples = 16
     scene.cycles.seed = 0
     scene.cycles.max_bounces = 0
     scene.cycles.transparent_max_bounces = 32
