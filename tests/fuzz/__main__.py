@@ -16,10 +16,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from fuzz.trial import SHARES, Trials
-
-_HANGS_S = 300
-"""By the clock, on a machine that does other things, too."""
+from fuzz.trial import SHARES, SLOWEST_S, Trials
 
 
 def main():
@@ -78,7 +75,7 @@ def _batch(seed, kind, entry, end):
     line = [sys.executable, "-m", "fuzz", "--seed", str(seed), "--work", kind, str(entry["done"]), str(end)]
     counts = Counter(entry["counts"])
     with subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        timer = _Watch(process, _HANGS_S)
+        timer = _Watch(process, 6 * SLOWEST_S)
         for said in process.stdout:
             timer.fed()
             if said.startswith("begin"):

@@ -6,6 +6,7 @@ import random
 import re
 import sys
 import tempfile
+import time
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +17,7 @@ from reflcolor_addon.errors import ReflcolorError, UsageError
 from reflcolor_addon.messages import LONGEST_LINE
 
 SLOWEST_S = 5.0
-"""Of the processor, this process and its children together: a clock would measure what else the machine does."""
+"""By the clock; what takes longer is read twice more, and the quickest counts, so that a busy machine is no fault."""
 MOST_BYTES = 300 << 20
 """Beyond what the file honestly needs, which for files of a few kilobytes is nothing beside this."""
 
@@ -75,45 +76,48 @@ class Trials:
         sample, data = self.data(kind, number)
         path = self.folder / sample.name
         path.write_bytes(data)
-        before, children = _peak(reset=True), _children_peak()
-        start = _processor_s()
-        with warnings.catch_warnings(), _listening() as heard:
-            warnings.simplefilter("error")
-            try:
-                sample.read(path)
-                state = "read"
-            except (ReflcolorError, UsageError) as error:
-                state = _fault_of(str(error)) or "refused"
-            except Exception as error:
-                trace = error.__traceback__
-                while trace.tb_next is not None:
-                    trace = trace.tb_next
-                place = f"{Path(trace.tb_frame.f_code.co_filename).name}:{trace.tb_lineno}"
-                state = f"{type(error).__name__} at {place}: {error}"[:300]
-        seconds = _processor_s() - start
-        taken = max(0, _peak() - before)
-        # A child process counts whole, with what its parent had when it started; one below the largest so far is not
-        # seen, and need not be.
-        if _children_peak() > children:
-            taken = max(taken, _children_peak())
-        if heard:
-            state = f"prints {heard[0][:200]!r}"
-        elif seconds > SLOWEST_S:
-            state = f"takes {seconds:.1f} s"
-        elif taken > MOST_BYTES:
-            state = f"takes {taken >> 20} MB"
+        state, seconds, taken = _read(sample, path)
+        for _ in range(2):
+            if seconds > SLOWEST_S:
+                seconds = min(seconds, _read(sample, path)[1])
+        if state in ("read", "refused"):
+            if seconds > SLOWEST_S:
+                state = f"takes {seconds:.1f} s"
+            elif taken > MOST_BYTES:
+                state = f"takes {taken >> 20} MB"
         return Outcome(kind, number, state, seconds, taken / (1 << 20))
+
+
+def _read(sample, path):
+    """Read a file once; return "read", "refused" or a fault in one line, seconds, and bytes of memory."""
+    before, children = _peak(reset=True), _children_peak()
+    start = time.monotonic()
+    with warnings.catch_warnings(), _listening() as heard:
+        warnings.simplefilter("error")
+        try:
+            sample.read(path)
+            state = "read"
+        except (ReflcolorError, UsageError) as error:
+            state = _fault_of(str(error)) or "refused"
+        except Exception as error:
+            trace = error.__traceback__
+            while trace.tb_next is not None:
+                trace = trace.tb_next
+            place = f"{Path(trace.tb_frame.f_code.co_filename).name}:{trace.tb_lineno}"
+            state = f"{type(error).__name__} at {place}: {error}"[:300]
+    seconds = time.monotonic() - start
+    taken = max(0, _peak() - before)
+    # A child process counts whole, with what its parent had when it started; one below the largest so far is not
+    # seen, and need not be.
+    if _children_peak() > children:
+        taken = max(taken, _children_peak())
+    return (f"prints {heard[0][:200]!r}" if heard else state), seconds, taken
 
 
 def _fault_of(line):
     if not line or len(line) > LONGEST_LINE or not line.isprintable():
         return f"an error that is no line of text: {line[:100]!r}"
     return "an error that quotes a traceback" if re.search(r"Traceback|object at 0x", line) else None
-
-
-def _processor_s():
-    used = os.times()
-    return used.user + used.system + used.children_user + used.children_system
 
 
 def _peak(*, reset=False):
