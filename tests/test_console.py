@@ -1,7 +1,6 @@
 """What the command line shows, whatever it is connected to."""
 
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -18,7 +17,7 @@ def test_progress_is_shown_on_a_terminal_and_leaves_no_trace(run_cli, cli_folder
     monkeypatch.setattr("reflcolor_addon.cli.console._REDRAW_S", 0.0)
     status, out, err = run_cli(*COLORIZE, "-o", "out.png")
     assert (status, out) == (0, "wrote out.png\n")
-    assert re.search(r"\r {0,2}\d+%  Estimating by kriging", err)
+    assert " 78%  Estimating by kriging" in err
     assert "\n" not in err
     assert err.rpartition("\r")[0].endswith(" ")
     assert err.endswith("\r")
