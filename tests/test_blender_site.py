@@ -374,29 +374,3 @@ def test_cancelling_the_match_leaves_all_scans_as_they_were(seeded, cancelled, t
     cancelled(times)
     assert seeded.ops.reflcolor.match_photos(matching="paper") == {"CANCELLED"}
     assert everything(seeded) == before
-
-
-def test_scans_that_are_joined_keep_their_colors_and_are_no_longer_taken_for_one_scan(seeded):
-    select(seeded, "wall", "floor")
-    seeded.ops.reflcolor.colorize()
-    colors = [colors_of(seeded.data.objects[name]) for name in ("wall", "floor")]
-    seeded.ops.object.join()
-    np.testing.assert_array_equal(colors_of(seeded.data.objects["wall"]), np.concatenate(colors))
-    with pytest.raises(RuntimeError, match="another mesh was joined to the scan; undo that, or separate them by mater"):
-        seeded.ops.reflcolor.colorize()
-
-
-def test_scans_that_are_joined_are_rendered_together(seeded):
-    points = sum(len(seeded.data.objects[name].data.vertices) for name in ("wall", "floor"))
-    select(seeded, "wall", "floor")
-    seeded.ops.object.join()
-    assert seeded.ops.reflcolor.set_up_render() == {"FINISHED"}
-    assert seeded.context.scene.camera is not None
-    assert len(seeded.data.objects["wall"].data.vertices) == points
-
-
-def colors_of(obj):
-    attribute = obj.data.color_attributes["Colorized"].data
-    rgba = np.empty(4 * len(attribute), np.float32)
-    attribute.foreach_get("color_srgb", rgba)
-    return rgba
