@@ -94,6 +94,13 @@ def value_of(text, name):
     return next((value for value in found if value is not None), None)
 
 
+def without_file(text):
+    """Return a text without the name of the file in front, where it begins with one."""
+    if not isinstance(text, Message) or not text.template.startswith("{file}: "):
+        return text
+    return Message(text.template.removeprefix("{file}: "), **text.values)
+
+
 def of_scan(scan, template, /, **values):
     """Return a Message about one scan of a file: "scan 'wall': its color is ..."."""
     return Message("scan '{scan}': {note}", scan=scan, note=Message(template, **values))

@@ -59,21 +59,17 @@ _E57 = {
         "Punkte; neu als E57 mit Raster oder als PTX exportieren"
     ),
     "{file}: scan '{scan}': rowIndex and columnIndex do not tell its points apart ({count:,} points, {pixels:,} "
-    "pixels); export it as PTX or as a structured (gridded) E57, or have a grid laid over its points: --grid angle, or "
-    "Grid by Angle in the import dialog": (
+    "pixels); export it as PTX or as a structured (gridded) E57, or {way}": (
         "{file}: Scan '{scan}': rowIndex und columnIndex unterscheiden seine Punkte nicht ({count:,} Punkte, "
-        "{pixels:,} Pixel); als PTX oder strukturiertes E57 exportieren, oder ein Raster über seine Punkte legen "
-        "lassen: --grid angle, oder Raster nach Winkeln im Import-Dialog"
+        "{pixels:,} Pixel); als PTX oder strukturiertes E57 exportieren, oder {way}"
     ),
     "{file}: scan '{scan}': {field} holds values that are not whole numbers; export it as PTX": (
         "{file}: Scan '{scan}': {field} enthält Werte, die keine ganzen Zahlen sind; als PTX exportieren"
     ),
     "{file}: scan '{scan}' is unstructured (its points have no rowIndex and columnIndex); export it as PTX or as a "
-    "structured (gridded) E57, or have a grid laid over its points: --grid angle, or Grid by Angle in the import "
-    "dialog": (
+    "structured (gridded) E57, or {way}": (
         "{file}: Scan '{scan}' ist unstrukturiert (seine Punkte haben weder rowIndex noch columnIndex); als PTX oder "
-        "strukturiertes E57 exportieren, oder ein Raster über seine Punkte legen lassen: --grid angle, oder Raster "
-        "nach Winkeln im Import-Dialog"
+        "strukturiertes E57 exportieren, oder {way}"
     ),
     "{file}: LAS needs laspy, which is missing; export its points as E57": (
         "{file}: LAS braucht laspy, das hier fehlt; ihre Punkte als E57 exportieren"

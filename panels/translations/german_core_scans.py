@@ -7,17 +7,17 @@ _SCANS = {
     "{file}: scan '{scan}': {reason}": "{file}: Scan '{scan}': {reason}",
     "{file}: scan '{scan}' {problem}": "{file}: Scan '{scan}' {problem}",
     "has no grid: points that are neighbors by their numbers are not neighbors in space. Export it with rows and "
-    "columns (structured E57, PTX), or have a grid laid over its points: --grid angle, or Grid by Angle in the import "
-    "dialog": (
+    "columns (structured E57, PTX), or {way}": (
         "hat kein Raster: Punkte, die der Nummer nach Nachbarn sind, sind es im Raum nicht. Mit Zeilen und Spalten "
-        "exportieren (strukturiertes E57, PTX), oder ein Raster über seine Punkte legen lassen: --grid angle, oder "
-        "Raster nach Winkeln im Import-Dialog"
+        "exportieren (strukturiertes E57, PTX), oder {way}"
     ),
     "has no grid: its points have neither rows nor columns. Export it with rows and columns (structured E57, PTX), or "
-    "have a grid laid over its points: --grid angle, or Grid by Angle in the import dialog": (
+    "{way}": (
         "hat kein Raster: seine Punkte haben weder Zeilen noch Spalten. Mit Zeilen und Spalten exportieren "
-        "(strukturiertes E57, PTX), oder ein Raster über seine Punkte legen lassen: --grid angle, oder Raster nach "
-        "Winkeln im Import-Dialog"
+        "(strukturiertes E57, PTX), oder {way}"
+    ),
+    "have a grid laid over its points: --grid angle, or Grid by Angle in the import dialog": (
+        "ein Raster über seine Punkte legen lassen: --grid angle, oder Raster nach Winkeln im Import-Dialog"
     ),
     "{file}: scan '{scan}' has no coordinates x, y and z": "{file}: Scan '{scan}' hat keine Koordinaten x, y und z",
     "{file}: scan '{scan}' has no pixel with a return; there is nothing to import": (

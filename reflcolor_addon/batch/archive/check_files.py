@@ -5,11 +5,12 @@ from functools import partial
 from ...errors import ReflcolorError, UsageError
 from ...files.images import check_image, image_size
 from ...files.readers import scan_pixels
-from ...messages import Message
+from ...files.readers.options import BY_ANGLE, LIGHTER
+from ...messages import Message, value_of
 from .costs import Costs
 
-_WAYS = {"--grid angle": 'reading = { grid = "angle" }', "--step 2": "reading = { step = 2 }"}
-"""What a manifest has for options of the command line that errors of readers name."""
+_WAYS = {BY_ANGLE: 'reading = { grid = "angle" }', LIGHTER: "reading = { step = 2 }"}
+"""What a manifest has for the ways out that errors of readers name."""
 
 
 def check_files(manifest, items, refuse, *, decode, progress):
@@ -59,9 +60,9 @@ def check_files(manifest, items, refuse, *, decode, progress):
 
 
 def _with_way(message):
-    """A message that names an option of the command line, with what a manifest has for it."""
-    ways = [way for option, way in _WAYS.items() if option in message]
-    return Message("{problem}; in the manifest: {way}", problem=message, way=ways[0]) if ways else message
+    """A message that names a way out on the command line, with what a manifest has for it."""
+    way = _WAYS.get(value_of(message, "way"))
+    return Message("{problem}; in the manifest: {way}", problem=message, way=way) if way else message
 
 
 def _naming(message, path, name):

@@ -1,7 +1,5 @@
 """The first stage of a batch: which of its photos are worth matching with which of its scans."""
 
-from pathlib import Path
-
 from ...files.exif import moment_of
 from ...files.readers.e57_file import acquired_at
 from ...messages import Message
@@ -54,7 +52,7 @@ def photos_of_items(context, items, known_pairs):
     tries = dict.fromkeys((task.name for task in tasks), 1)
     context.work(tasks, finished, "Looked at photos for")
     for path, problem in problems.items():
-        context.problems[path] = problem.removeprefix(f"{Path(path).name}: ")
+        context.problems[path] = problem
         context.session.warnings.append(
             Message("{photo}: {problem}", photo=photos[path], problem=context.problems[path])
         )

@@ -7,6 +7,7 @@ from ...files.images import read_image, write_png
 from ...files.readers import read_scans
 from ...matching.photo_image import PhotoImage
 from ...matching.registration.registration import ScanViews
+from ...messages import without_file
 from ..plan_document import reading_of
 from .fingerprints import digest_of, program_digest
 from .first_look import first_look
@@ -53,7 +54,7 @@ def look_at(request, *, progress, cancelled):
             try:
                 photo = PhotoImage(Path(path).name, _sketch(folder, path, hashes[path]))
             except ReflcolorError as error:
-                problems[path] = str(error)
+                problems[path] = without_file(error.message)
                 continue
             scores[path] = max((first_look(own, photo, step) for own in views), default=0.0)
             if hashes[path]:

@@ -10,8 +10,8 @@ from ..memory import require_memory
 from .angle import gridded_by_angle
 from .colors import scaled_colors
 from .e57_grid import IndexGrid
-from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_scan
-from .options import ANGLE
+from .grid import BYTES_PER_PIXEL, UnusableScan, finish_scan
+from .options import ANGLE, LIGHTER
 from .settle import NO_ROWS
 
 _STRENGTHS = (
@@ -62,7 +62,7 @@ def require_grid(path, names, *, options, shape=None, name=None):
         raise UnusableScan("{file}: scan '{scan}' has no coordinates x, y and z", **place)
     has_grid = (shape is not None and min(shape) > 1) or any(names >= set(pair) for pair in _GRIDS)
     if options.grid != ANGLE and not has_grid:
-        raise UnusableScan("{file}: scan '{scan}' {problem}", problem=Message(NO_ROWS), **place)
+        raise UnusableScan("{file}: scan '{scan}' {problem}", problem=NO_ROWS, **place)
 
 
 def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None, named=(), warnings=()):
@@ -131,4 +131,4 @@ def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None,
         arrays["color"] = None if color is None else laid.spread(color)
         arrays["reflectance"] = None if strength is None else laid.spread(np.asarray(strength), np.float32)
         return finish_scan(**common, **arrays)
-    raise UnusableScan("{file}: scan '{scan}' {problem}", problem=Message(NO_ROWS), **header.place)
+    raise UnusableScan("{file}: scan '{scan}' {problem}", problem=NO_ROWS, **header.place)

@@ -11,8 +11,8 @@ from .e57_file import read_structure, scan_name, scan_nodes
 from .e57_header import GROUP, GROUPS, INDEX, require_structure, scan_header
 from .e57_points import E57Points
 from .formats import Format
-from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_grid, with_problems
-from .options import ANGLE, AS_IT_IS, pixels_kept
+from .grid import BYTES_PER_PIXEL, UnusableScan, finish_grid, with_problems
+from .options import ANGLE, AS_IT_IS, LIGHTER, pixels_kept
 
 # Pixels for each point of a grid whose bounds are believed before it is read.
 _SPARSEST = 100

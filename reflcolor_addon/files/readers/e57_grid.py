@@ -7,8 +7,9 @@ import numpy as np
 from ...errors import ScanError
 from ...messages import Message
 from ..memory import require_memory
-from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan
+from .grid import BYTES_PER_PIXEL, UnusableScan
 from .grid_memory import strips
+from .options import BY_ANGLE, LIGHTER
 
 _CELLS_PER_POINT = 1000
 # How many times larger than the extent of the points the bounds stated in a file may be: a small scene under a large
@@ -135,8 +136,8 @@ class IndexGrid:
         if returns is None and self._scattered(points, there[order], first):
             raise UnusableScan(
                 "{file}: scan '{scan}': rowIndex and columnIndex do not tell its points apart ({count:,} points, "
-                "{pixels:,} pixels); export it as PTX or as a structured (gridded) E57, or have a grid laid over its "
-                "points: --grid angle, or Grid by Angle in the import dialog",
+                "{pixels:,} pixels); export it as PTX or as a structured (gridded) E57, or {way}",
+                way=BY_ANGLE,
                 count=there.size,
                 pixels=self._pixels.size,
                 **self._place,

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...messages import Message
 from .grid import UnusableScan
+from .options import BY_ANGLE
 
 CARTESIAN = ("cartesianX", "cartesianY", "cartesianZ")
 SPHERICAL = ("sphericalRange", "sphericalAzimuth", "sphericalElevation")
@@ -130,8 +131,8 @@ def unstructured(header):
     """Return the UnusableScan for a scan without rows and columns."""
     return UnusableScan(
         "{file}: scan '{scan}' is unstructured (its points have no rowIndex and columnIndex); export it as PTX "
-        "or as a structured (gridded) E57, or have a grid laid over its points: --grid angle, or Grid by Angle "
-        "in the import dialog",
+        "or as a structured (gridded) E57, or {way}",
+        way=BY_ANGLE,
         **header.place,
     )
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import ScanError
-from ...messages import Message, of_scan
+from ...messages import Message, of_scan, without_file
 from ...scan.limits import FARTHEST_M, NEAREST_M, STRONGEST
 from ...scan.scan import HandedOver, Scan
 from .grid_memory import in_order, strips
@@ -15,9 +15,6 @@ from .settle import NO_GRID, NoGrid, Settled
 
 BYTES_PER_PIXEL = 80
 """Peak memory of reading: the points, the other arrays and their upright copies, and some masks."""
-
-LIGHTER = Message("read every second row and column only: --step 2, or Every in the import dialog")
-"""What to do where memory does not suffice."""
 
 _MOST_REASONS = 5
 """This many of the scans that are left out are listed one by one."""
@@ -105,9 +102,7 @@ def finish_grid(
     try:
         settled = Settled(points, usable, pose, places or {}, origin, options, warn)
     except NoGrid:
-        raise UnusableScan(
-            "{file}: scan '{scan}' {problem}", file=source.name, scan=name, problem=Message(NO_GRID)
-        ) from None
+        raise UnusableScan("{file}: scan '{scan}' {problem}", file=source.name, scan=name, problem=NO_GRID) from None
     if not settled.valid.any():
         raise UnusableScan(
             "{file}: scan '{scan}' has no pixel with a return; there is nothing to import", file=source.name, scan=name
@@ -145,7 +140,7 @@ def with_problems(finished, problems, count, source):
     """The finished scans, the first of which says what the left out ones lack; an error if there are none."""
     if not problems:
         return finished
-    reasons = [_without_file(problem.message) for problem in problems]
+    reasons = [without_file(problem.message) for problem in problems]
     if not finished and count == 1:
         raise problems[0]
     if not finished:
@@ -159,9 +154,3 @@ def with_problems(finished, problems, count, source):
     if more := len(reasons) - len(left_out):
         left_out.append(Message("left out: {count:,} more scans, for similar reasons", count=more))
     return [replace(finished[0], warnings=finished[0].warnings + tuple(left_out)), *finished[1:]]
-
-
-def _without_file(message):
-    """Return a message without the name of the file in front."""
-    template = message.template.removeprefix("{file}: ")
-    return Message(template, **message.values) if template != message.template else message

@@ -12,6 +12,10 @@ AUTO = "auto"
 TURNS = (0, 90, 180, 270)
 RETURNS = ("first", "strongest", "last")
 STORED, ANGLE = "stored", "angle"
+LIGHTER = Message("read every second row and column only: --step 2, or Every in the import dialog")
+"""What to do where memory does not suffice."""
+BY_ANGLE = Message("have a grid laid over its points: --grid angle, or Grid by Angle in the import dialog")
+"""What to do where points are on no grid."""
 _KINDS = {int: Message("a whole number"), bool: Message("true or false"), str: Message("a text in quotes")}
 
 

@@ -13,8 +13,8 @@ from ..memory import require_memory
 from .angle import gridded_by_angle
 from .cloud import Place
 from .formats import Format
-from .grid import BYTES_PER_PIXEL, LIGHTER, UnusableScan, finish_grid, with_problems
-from .options import ANGLE, AS_IT_IS, pixels_kept
+from .grid import BYTES_PER_PIXEL, UnusableScan, finish_grid, with_problems
+from .options import ANGLE, AS_IT_IS, LIGHTER, pixels_kept
 from .poses import ptx_pose
 from .ptx_points import END_MARKS, PointLines, number_of, shortened, shown
 from .text_lines import TextLines

@@ -14,7 +14,7 @@ from ...scan.origin import better_origin, repeated_point
 from ...scan.units import MILLIMETRE, counts_millimeters, scale_of_pose
 from .grid_memory import strips
 from .grid_order import GridOrder
-from .options import AUTO, UNITS
+from .options import AUTO, BY_ANGLE, UNITS
 
 _FARTHEST_RETURN_M = 20_000.0
 """No terrestrial scanner measures farther; points beyond are geo-referenced."""
@@ -28,14 +28,15 @@ _FEWEST = 1 << 10
 _NEARLY_UP = 0.7
 
 
-NO_GRID = (
+NO_GRID = Message(
     "has no grid: points that are neighbors by their numbers are not neighbors in space. Export it with rows and "
-    "columns (structured E57, PTX), or have a grid laid over its points: --grid angle, or Grid by Angle in the "
-    "import dialog"
+    "columns (structured E57, PTX), or {way}",
+    way=BY_ANGLE,
 )
-NO_ROWS = (
+NO_ROWS = Message(
     "has no grid: its points have neither rows nor columns. Export it with rows and columns (structured E57, PTX), or "
-    "have a grid laid over its points: --grid angle, or Grid by Angle in the import dialog"
+    "{way}",
+    way=BY_ANGLE,
 )
 
 
