@@ -1,7 +1,10 @@
 """Light meshes in Blender, made by its own decimation in another Blender, through the installed zip."""
 
+import importlib
+
 import numpy as np
 import pytest
+from blender_session import EXTENSION
 from gltf_files import Glb
 from small_scans import random_scan
 from test_blender_import import srgb, values, write_small_ptx
@@ -58,3 +61,15 @@ def test_a_light_mesh_shows_the_scan_and_can_be_taken_back(blender, tmp_path):
     bpy.ops.ed.undo()
     assert "wall Light" not in bpy.data.objects
     assert not bpy.data.objects["wall"].hide_render and not bpy.data.objects["wall"].hide_get()
+
+
+def test_what_is_temporary_lies_where_blender_keeps_its_own(installed_blender, tmp_path):
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.temporary")
+    paths = installed_blender.context.preferences.filepaths
+    before, paths.temporary_directory = paths.temporary_directory, str(tmp_path)
+    try:
+        with module.temporary_folder() as folder:
+            assert folder.is_dir() and folder.parent == tmp_path
+    finally:
+        paths.temporary_directory = before
+    assert not folder.exists()

@@ -11,8 +11,8 @@ import numpy as np
 
 from ...reflcolor_addon.errors import Cancelled, ReflcolorError
 from ...reflcolor_addon.files.confined.python_program import python_program
-from ...reflcolor_addon.files.work_folder import scratch_folder
 from ...reflcolor_addon.messages import Message
+from .temporary import temporary_folder
 
 _PROGRAM = Path(__file__).with_name("decimation_program.py")
 _LOOK_EVERY_S = 0.1
@@ -47,7 +47,7 @@ def decimate(coordinates, corners, sizes, fixed, faces, *, progress=None, cancel
     Cancelled
         If ``cancelled()`` returned True.
     """
-    with scratch_folder() as folder:
+    with temporary_folder() as folder:
         given = {"coordinates": coordinates, "corners": corners, "sizes": sizes, "fixed": np.flatnonzero(fixed)}
         for kind, array in given.items():
             np.save(folder / f"{kind}.npy", np.ascontiguousarray(array), allow_pickle=False)

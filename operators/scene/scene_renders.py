@@ -12,11 +12,11 @@ from mathutils import Matrix
 
 from ...reflcolor_addon.errors import SettingsError
 from ...reflcolor_addon.files.exr import read_exr_channels
-from ...reflcolor_addon.files.work_folder import scratch_folder
 from ...reflcolor_addon.simulation.cryptomatte import name_as_float
 from ...reflcolor_addon.simulation.virtual_camera import Photo
 from ...reflcolor_addon.simulation.virtual_scanner import Hits
 from ...reflcolor_addon.srgb import linear_to_srgb8
+from .temporary import temporary_folder
 
 NIR_ALBEDO = "nir_albedo"
 # Most dyes and paints are brighter in the near infrared than they look, and red is the visible color next to it.
@@ -68,7 +68,7 @@ class SceneRenders:
         self._camera_data.clip_start, self._camera_data.clip_end = 1e-4, 1e6
         scene.collection.objects.link(self._camera)
         scene.camera = self._camera
-        _choose_renderer(scene, undo.enter_context(scratch_folder()) / "passes.exr")
+        _choose_renderer(scene, undo.enter_context(temporary_folder()) / "passes.exr")
 
     def caster(self, pose):
         """Return the ``cast`` function for `simulate_scan` of a scanner with this (4, 4) pose (Z up, looking along +Y).

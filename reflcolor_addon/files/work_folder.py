@@ -45,9 +45,12 @@ def work_folder(parent, *, rescue=None):
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def scratch_folder():
-    """Give a `work_folder` in the system's place for temporary files, for what goes from one program to another."""
-    return work_folder(Path(gettempdir()))
+def scratch_folder(parent=None):
+    """Give a `work_folder` in a place for temporary files, the system's unless another is given.
+
+    It is for what goes from one program to another.
+    """
+    return work_folder(Path(parent or gettempdir()))
 
 
 def _owned_folder(parent):
