@@ -4,6 +4,7 @@ from ..operators.scene import polls
 from ..operators.scene.properties import scene_picture
 from ..operators.scene.render import lacks_surface
 from ..operators.scene.scan_object import is_light
+from ..operators.scene.seed_list import seeds_are_few_and_picked
 from ..operators.scene.setting_properties import COLORIZE_NAMES, active_preset
 from ..operators.scene.texts import label
 from ..operators.window import live_update
@@ -13,6 +14,8 @@ from .step import Step, draw_act, draw_selected, in_both_editors, in_view
 
 # What is shown at once; all other settings are under Advanced.
 _FIRST = ("light", "alpha", "beta", "tone")
+# Above this share of the light from a few picked colors, the detail of the reflectance hardly shows.
+_FLAT_LIGHT = 0.7
 
 
 class Colorize(Step):
@@ -32,6 +35,8 @@ class Colorize(Step):
         column = layout.column()
         for name in _FIRST:
             column.prop(settings, name)
+            if name == "light" and settings.light > _FLAT_LIGHT and seeds_are_few_and_picked(obj):
+                column.label(text="Looks flat? Lower it for detail", icon="INFO")
         row = layout.row()
         # Split, a button would have its text beside it.
         row.use_property_split = False

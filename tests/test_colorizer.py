@@ -30,7 +30,15 @@ def test_colorizing_anew_after_any_change_gives_the_bytes_of_colorizing_at_once(
     ):
         change()
         seeds = Seeds(rows, cols, np.array(colors))
-        for settings in (Settings(), Settings(alpha=2.0), Settings(beta=0.0), Settings(color_space="cielab")):
+        for settings in (
+            Settings(),
+            Settings(alpha=2.0),
+            Settings(beta=0.0),
+            Settings(color_space="cielab"),
+            Settings(nearest=3),
+            Settings(nearest=20),
+            Settings.preset("Natural"),
+        ):
             anew, at_once = colorizer.colorize(seeds, settings), colorize(scan, seeds, settings)
             assert anew.rgb.tobytes() == at_once.rgb.tobytes()
             assert anew.confidence.tobytes() == at_once.confidence.tobytes()

@@ -55,6 +55,19 @@ def test_the_distances_are_the_reference(small, k):
 
 
 @settings(max_examples=300)
+@given(small_graphs(seeds=9), st.integers(1, 12), st.integers(1, 8), st.integers(1, 4))
+def test_lists_that_seeds_are_added_to_have_the_distances_of_all_seeds_at_once(small, k, first, threads):
+    graph, pixels = small.kernel_graph(), np.append(small.pixels, small.pixels[0])
+    first = min(first, len(pixels) - 1)
+    found = kernel.nearest(graph, pixels[:first], k)
+    kernel.extend(found, pixels, first, threads=threads)
+    distances, seeds = found.distances, found.seeds
+    np.testing.assert_array_equal(distances, kernel.nearest(graph, pixels, k).distances)
+    fields = np.stack([kernel.field(graph, pixel) for pixel in pixels])
+    np.testing.assert_array_equal(of_listed(fields, seeds), distances)
+
+
+@settings(max_examples=300)
 @given(small_graphs(seeds=9), st.integers(1, 20), st.integers(2, 9))
 def test_the_number_of_threads_changes_no_bit(small, k, threads):
     one, several = (kernel.nearest(small.kernel_graph(), small.pixels, k, threads=n) for n in (1, threads))

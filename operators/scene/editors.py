@@ -13,6 +13,16 @@ def redraw_editors(kinds=frozenset({"VIEW_3D", "IMAGE_EDITOR"})):
                 area.tag_redraw()
 
 
+def redraw_sidebars():
+    """Have the sidebars of 3D Views and Image Editors drawn again, and not the views, which takes far longer."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
+
+
 def select_only(seeds, indices):
     """Select these of a collection of seeds, and no others."""
     chosen, selected = set(indices), [False] * len(seeds)

@@ -69,15 +69,12 @@ def put_pixels(image, name, stored, size, *, is_data=False):
     return image
 
 
-def stored_pixels(pixels):
-    """Return (4 H W,) float32, as Blender stores an image, of pixels as `packed_pixels` takes them; touches no bpy."""
-    height, width = pixels.shape[:2]
-    rgba = np.ones((height, width, 4), np.float32)
-    if pixels.dtype == np.uint8:
-        np.divide(pixels[::-1], np.float32(255), out=rgba[..., :3])
-    else:
-        rgba[..., :3] = pixels[::-1, :, None]
-    return rgba.ravel()
+def stored_pixels(rgb):
+    """Return (4 H W,) float32, as Blender stores an image, of (H, W, 3) uint8; touches no bpy."""
+    import cv2
+
+    # Live Update waits for it, and four channels at once are far quicker than three of four.
+    return np.divide(cv2.cvtColor(cv2.flip(rgb, 0), cv2.COLOR_RGB2RGBA), np.float32(255)).ravel()
 
 
 def read_image(image):

@@ -14,8 +14,8 @@ import numpy as np
 from ...reflcolor_addon.color.observed import Observed, packed_rgb, unpacked_rgb
 from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.matching.registration.stored import model_document, model_of
-from ...reflcolor_addon.scan.object_arrays import on_grid
-from .scan_object import add_values, at_vertices, grid_indices, values_of
+from ...reflcolor_addon.scan.object_arrays import at_places, on_grid
+from .scan_object import add_values, grid_indices, values_of
 
 _RGB, _WEIGHT, _PHOTO = ".seen_rgb", ".seen_weight", ".seen_photo"
 # Custom property of objects: a key that changes with the observed colors.
@@ -42,7 +42,8 @@ def keep_observed(obj, observed):
             if name in obj:
                 del obj[name]
         return
-    rgb, weight, photo = at_vertices(obj, observed.rgb, observed.weight, observed.photo)
+    place = grid_indices(obj)
+    rgb, weight, photo = (at_places(image, place) for image in (observed.rgb, observed.weight, observed.photo))
     values = {_RGB: packed_rgb(rgb), _WEIGHT: weight, _PHOTO: photo}
     digest = hashlib.sha256()
     for name, each in values.items():

@@ -98,14 +98,6 @@ def grid_indices(obj):
     return rows, cols
 
 
-def at_vertices(obj, *images):
-    """Return each (H, W, ...) array of the scan's grid as (N, ...), one per vertex; raises as `grid_indices`."""
-    rows, cols = grid_indices(obj)
-    # Far faster than by rows and columns; the window waits for it.
-    pixels = rows * np.int32(obj.reflcolor.cols) + cols
-    return [image.reshape(-1, *image.shape[2:]).take(pixels, axis=0) for image in images]
-
-
 def is_light(obj):
     """Whether an object has a light mesh instead of a scan's own."""
     return LIGHT in obj.data
@@ -170,8 +162,20 @@ def seed_vertices(obj, rows, cols):
     return local @ np.array(obj.matrix_world.to_3x3(), np.float32).T + np.array(obj.matrix_world.translation), known
 
 
+def color_values(rgb):
+    """Return (N, 3) uint8 sRGB as `write_colors` takes them; touches no bpy."""
+    rgba = np.ones((len(rgb), 4), np.float32)
+    rgba[:, :3] = rgb / np.float32(255)
+    return rgba.ravel()
+
+
 def add_colors(obj, name, rgb):
     """Write (N, 3) uint8 sRGB, one per vertex, as a color attribute of that name; one that is there is replaced."""
+    write_colors(obj, name, color_values(rgb))
+
+
+def write_colors(obj, name, values):
+    """Write `color_values` of all vertices as a color attribute of that name; one that is there is replaced."""
     _check_readable(obj)
     mesh = obj.data
     attribute = mesh.color_attributes.get(name)
@@ -180,9 +184,7 @@ def add_colors(obj, name, rgb):
         attribute = None
     if attribute is None:
         attribute = mesh.color_attributes.new(name, "BYTE_COLOR", "POINT")
-    rgba = np.ones((len(mesh.vertices), 4), np.float32)
-    rgba[:, :3] = rgb / np.float32(255)
-    attribute.data.foreach_set("color_srgb", rgba.ravel())
+    attribute.data.foreach_set("color_srgb", values)
     mesh.update()
 
 

@@ -11,6 +11,9 @@ from .quiet import point_to, write_quietly
 from .scan_object import grid_indices
 from .seed_arrays import FOUND_BY, seed_arrays
 
+# Up to so many, a person has picked about one for each surface.
+_FEW_SEEDS = 20
+
 
 class SeedPlace:
     """A pixel of the scan, as properties of an operator."""
@@ -69,6 +72,12 @@ def seeds_of(obj, *, wanted=lambda seeds: True):
     )
 
 
+def seeds_are_few_and_picked(obj):
+    """Whether an object has seeds, a person picked all of them, and each is the only one of a whole surface."""
+    seeds = [] if obj is None else obj.reflcolor.seeds
+    return 0 < len(seeds) <= _FEW_SEEDS and all(seed.reason == "hand" for seed in seeds)
+
+
 def append_seed(obj, row, col, rgb, photo=None, photo_xy=(0.0, 0.0)):
     """Add a seed to the object and select it, and no other; ``rgb`` is of 0..1."""
     seed = obj.reflcolor.seeds.add()
@@ -122,8 +131,11 @@ def selected_seeds(obj):
 
 def snapped_place(obj, row, col):
     """Return (row, col) of the pixel with a return that is nearest to a pixel of the object's grid."""
+    rows, cols = grid_indices(obj)
+    if ((rows == row) & (cols == col)).any():
+        return row, col
     valid = np.zeros((obj.reflcolor.rows, obj.reflcolor.cols), bool)
-    valid[grid_indices(obj)] = True
+    valid[rows, cols] = True
     if not valid.any():
         raise SeedsError("{name}: no pixel has a return, so no seed can be placed", name=obj.name)
     return nearest_valid(valid, row, col)

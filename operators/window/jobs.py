@@ -6,6 +6,7 @@ import time
 import bpy
 
 from ...reflcolor_addon.errors import Cancelled
+from ..scene.editors import redraw_editors, redraw_sidebars
 from ..scene.reports import reported
 from ..scene.texts import label, report_text, shown
 
@@ -234,7 +235,7 @@ class JobOperator:
             going_on = f"{job.fraction:.0%}  {shown(job.text)}   |   {label('ESC: Cancel')}"
             text = label("Cancelling") if job.stopping else going_on
             context.workspace.status_text_set(f"{label(job.name)}:  {text}")
-        _redraw_views(context)
+        redraw_sidebars()
 
     def _end(self, context):
         context.window_manager.event_timer_remove(self._timer)
@@ -242,11 +243,4 @@ class JobOperator:
             _running.remove(self._job)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
-        _redraw_views(context)
-
-
-def _redraw_views(context):
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
-                area.tag_redraw()
+        redraw_editors()

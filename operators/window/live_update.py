@@ -23,7 +23,8 @@ from ..scene.texts import shown
 from . import jobs
 
 PREVIEW = "Live Preview"
-_POLL_S = 0.03
+# Seconds between two looks: for a change, and for the first colors of one.
+_POLL_S, _AWAITED_POLL_S = 0.03, 0.01
 # Redrawing the mesh of a larger scan is slow on some machines, so it waits for the full result.
 _QUICK_VERTICES = 150_000
 
@@ -35,6 +36,7 @@ class _Live:
         self.place = _place(obj)
         self.colorizer = LiveColorizer(scan_reader(obj), prepare=stored_pixels)
         self.wished = self.kept = self.seen = None
+        self.shown = 0
 
     def wish(self, obj, settings):
         """Ask for the colors of the present seeds and settings, if those are not asked for yet."""
@@ -44,6 +46,10 @@ class _Live:
             if self.seen is None or self.seen[0] != observed_key(obj):
                 self.seen = observed_key(obj), observed_reader(obj)()
             self.colorizer.wish(seeds_of(obj), settings, self.seen[1])
+
+    def awaits(self):
+        """Whether nothing has come of the last wish yet."""
+        return self.shown < self.colorizer.latest
 
     def settled(self):
         """Whether the newest result is there in full."""
@@ -91,8 +97,12 @@ def finished(obj, settings):
 
 def redraw_seeds(obj):
     """Have the editors drawn that show the object's seeds; those of a large mesh with the preview that will follow."""
-    follows = bpy.context.window_manager.reflcolor.live_update and len(obj.data.vertices) > _QUICK_VERTICES
-    redraw_editors({"IMAGE_EDITOR"} if follows else {"IMAGE_EDITOR", "VIEW_3D"})
+    follows = bpy.context.window_manager.reflcolor.live_update
+    if follows and _live is not None and _live.place == _place(obj) and jobs.running() is None:
+        # The timer's next turn may come only after all editors were drawn.
+        _wish(obj)
+    large = len(obj.data.vertices) > _QUICK_VERTICES
+    redraw_editors({"IMAGE_EDITOR"} if follows and large else {"IMAGE_EDITOR", "VIEW_3D"})
 
 
 def switch(on):
@@ -125,10 +135,11 @@ def _tick():
     obj = polls.scan_object(bpy.context)
     if obj is not None and jobs.running() is None:
         _follow(obj)
-    return _POLL_S
+    return _AWAITED_POLL_S if _live is not None and _live.awaits() else _POLL_S
 
 
-def _follow(obj):
+def _wish(obj):
+    """Ask for the colors of the object's present seeds; return whether that could be done."""
     global _live, _message
     try:
         if _live is None or _live.place != _place(obj):
@@ -137,11 +148,18 @@ def _follow(obj):
         _live.wish(obj, scene_settings(bpy.context.scene, COLORIZE_NAMES))
     except ReflcolorError as error:
         _message = shown(error.message)
+        return False
+    return True
+
+
+def _follow(obj):
+    global _message
+    if not _wish(obj):
         return
     result = _live.colorizer.take()
     if result is None:
         return
-    error, _message = result.error, ""
+    error, _message, _live.shown = result.error, "", result.number
     if error is not None:
         line = line_of(error)
         if line is None:

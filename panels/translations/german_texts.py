@@ -42,6 +42,7 @@ _PANELS = {
         "Der Scan ist aus einer anderen Datei verknüpft; erst lokal machen oder eine Bibliotheksüberschreibung anlegen"
     ),
     "Needs seeds": "Braucht Saatpunkte",
+    "Looks flat? Lower it for detail": "Zu flach? Weniger zeigt Details",
     "No seed reaches": "Von keinem erreicht",
     "None in the scan": "Nicht im Scan",
     "None: all colors are guesses": "Keine: alle Farben sind geraten",

@@ -51,6 +51,8 @@ class Colorizer:
         nothing else is kept, either.
     threads : int, optional
         By default one per processor. The number changes no bit of a result.
+    preview : bool, optional
+        A seed more costs far less, but with equal distances a few pixels may differ from what `colorize` gives.
 
     Raises
     ------
@@ -74,6 +76,7 @@ class Colorizer:
         *,
         memory: int = _DEFAULT_MEMORY,
         threads: int | None = None,
+        preview: bool = False,
     ) -> None:
         require_scan(scan)
         self.scan = scan
@@ -85,11 +88,11 @@ class Colorizer:
         self._seen = None
         self.settings = settings_or_default(settings)
         images = self._luminance, range_image
-        self._spreader = Spreader(scan, *images, self.settings, memory=memory, threads=self.threads)
+        self._spreader = Spreader(scan, *images, self.settings, memory=memory, threads=self.threads, preview=preview)
 
     @property
     def held_bytes(self):
-        """Bytes that the fields take now."""
+        """Bytes that fields and lists of nearest seeds take now."""
         return self._spreader.nbytes
 
     def colorize(

@@ -97,10 +97,10 @@ class Kriging:
                 among = covariance[np.ix_(group, group)]
                 self.residuals[group, part], _ = _residuals(among, own[group], nuggets[group])
 
-    def chunks(self, count):
-        """Return slices that part ``count`` pixels so that each part fits well into memory."""
+    def chunks(self, count, least=1):
+        """Return slices that part ``count`` pixels: at least so many, and each fits well into memory."""
         values = _CHUNK_VALUES if library.available() else _CHUNK_VALUES_HELD
-        step = max(1, values // len(self._features))
+        step = max(1, min(values // len(self._features), -(-count // least)))
         return [slice(start, min(count, start + step)) for start in range(0, count, step)]
 
     def estimate(self, features):

@@ -20,12 +20,62 @@ _SAMPLE = 50_000
 _GOLDEN = 0.6180339887498949
 
 
+class HeldLists:
+    """The lists of nearest seeds that were found last.
+
+    Parameters
+    ----------
+    limit : int
+        Bytes that they may take; larger ones are not kept.
+    growing : bool
+        Whether seeds that come behind the known ones are added to their lists. That is quick, but which of several
+        equally far seeds is listed last then depends on what was there before.
+    """
+
+    def __init__(self, limit, *, growing):
+        self._limit, self._growing = limit, growing
+        self.clear()
+
+    @property
+    def nbytes(self):
+        """Bytes that they take now."""
+        return 0 if self._lists is None else self._lists.nbytes
+
+    def clear(self):
+        """Drop them."""
+        self._lists, self._pixels, self._k = None, None, 0
+
+    def places(self, number, seeds):
+        """Return how long lists are to be, of ``number`` nearest of so many seeds: with room for more, if they grow."""
+        return min(number, max(seeds, NUMBERS[0]) if self._growing else seeds)
+
+    def take(self, pixels, k):
+        """Return lists of k places and the number of these seeds that are in them; None and 0 where there are none.
+
+        They are not kept any longer, because they will be changed: `hold` them again.
+        """
+        lists, known = self._lists, self._pixels
+        fits = (
+            lists is not None
+            and self._k == k
+            and (self._growing or len(known) == len(pixels))
+            and np.array_equal(known, pixels[: len(known)])
+        )
+        self.clear()
+        return (lists, len(known)) if fits else (None, 0)
+
+    def hold(self, lists, pixels, k):
+        """Keep lists of k places, of the seeds on these pixels."""
+        if lists.nbytes <= self._limit:
+            self._lists, self._pixels, self._k = lists, pixels, k
+
+
 def all_are_few(seeds, pixels):
     """Whether all seeds are used on a scan of so many pixels."""
     return seeds * pixels <= EXACT_PIXEL_SEEDS or seeds <= NUMBERS[0]
 
 
-def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, cancelled):
+def mean_of_nearest(engine, pixels, values, valid, settings, held, threads, progress, cancelled, *, bounded=True):
     """Return the mean of eq. 1 over the nearest seeds, how many these are, and which they are.
 
     Parameters
@@ -38,8 +88,12 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
     valid : (H, W) bool
     settings : Settings
         Its ``nearest`` is a number, or "auto".
+    held : HeldLists
+        What is known already, and what will be for the next time.
     threads : int
     progress, cancelled : callable
+    bounded : bool, optional
+        Whether to tell how much the seeds left out could change; it takes most of the time of mixing.
 
     Returns
     -------
@@ -54,13 +108,13 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
     levels = colorspaces.levels_per_unit(settings.color_space)
     found, method, reported = None, {}, 0.0
     sought = NUMBERS if settings.nearest == "auto" else (settings.nearest,)
-    for k in dict.fromkeys(min(number, len(pixels)) for number in sought):
+    for k in dict.fromkeys(held.places(number, len(pixels)) for number in sought):
         if found is not None:
             _require_memory(engine, k, valid.shape)
         # It is not known yet whether more seeds will be needed.
         end = (reported + 1) / 2 if settings.nearest == "auto" else 1.0
-        found = _found(engine, pixels, k, found, threads, _part_of(progress, reported, end), cancelled)
-        reported, method["nearest"] = end, k
+        found = _found(engine, pixels, k, found, held, threads, _part_of(progress, reported, end), cancelled)
+        reported, method["nearest"] = end, min(k, len(pixels))
         if settings.nearest == "auto":
             doubled = doubled_levels(found.at(sample_of(valid)), values, settings.alpha, levels)
             method["doubled_levels"] = {"p95": round(doubled, 3)}
@@ -68,14 +122,17 @@ def mean_of_nearest(engine, pixels, values, valid, settings, threads, progress, 
                 break
     mean, bound = done_apart(
         engine.control(),
-        lambda control: found.blend(values, settings.alpha, control=control),
+        lambda control: found.blend(values, settings.alpha, bounded=bounded, threads=threads, control=control),
         lambda control: progress(1.0, "Mixing the colors"),
         cancelled,
     )
-    inside = bound[valid] * levels
-    largest, percentile = float(inside.max()), float(np.percentile(inside, 99.9))
-    method["bound_levels"] = {"max": round(largest, 3), "p99.9": round(percentile, 3)}
-    return mean, method, found.at(pixels), found
+    if bounded:
+        inside = bound[valid] * levels
+        largest, percentile = float(inside.max()), float(np.percentile(inside, 99.9))
+        method["bound_levels"] = {"max": round(largest, 3), "p99.9": round(percentile, 3)}
+    # Where there are fewer seeds than places, the last ones are empty.
+    near = tuple(each[:, : len(pixels)] for each in found.at(pixels))
+    return mean, method, near, found
 
 
 def sample_of(valid):
@@ -117,15 +174,24 @@ def _part_of(progress, start, end):
     return lambda done, text: progress(start + (end - start) * done, text)
 
 
-def _found(engine, pixels, k, known, threads, progress, cancelled):
+def _found(engine, pixels, k, known, held, threads, progress, cancelled):
+    """The k nearest seeds of every pixel; ``known`` are fewer of them."""
+    lists, first = held.take(pixels, k)
+
     def report(control):
-        share = min(1, control.done / len(pixels))
-        progress(share, Message("{nearest} nearest of {count} seeds", nearest=k, count=len(pixels)))
+        share = min(1, control.done / (len(pixels) - first))
+        nearest = min(k, len(pixels))
+        progress(share, Message("{nearest} nearest of {count} seeds", nearest=nearest, count=len(pixels)))
 
     def search(control):
-        return engine.nearest(pixels, k, control, threads=threads, known=known)
+        if lists is None:
+            return engine.nearest(pixels, k, control, threads=threads, known=known)
+        engine.extend(lists, pixels, first, control, threads=threads)
+        return lists
 
-    return done_apart(engine.control(), search, report, cancelled)
+    found = lists if first == len(pixels) else done_apart(engine.control(), search, report, cancelled)
+    held.hold(found, pixels, k)
+    return found
 
 
 def _require_memory(engine, k, shape):

@@ -30,20 +30,25 @@ class Paths:
     ----------
     graph : PixelGraph
     memory : int
-        Bytes that geodesic fields may take. With 0, nothing else is kept, either.
+        Bytes that geodesic fields may take, or lists of nearest seeds. With 0, nothing else is kept, either.
     threads : int
         The number changes no bit of a result.
+    growing : bool
+        Whether seeds are added to lists; see `HeldLists`.
+    bounded : bool
+        Whether to tell how much the seeds left out could change.
     """
 
-    def __init__(self, graph, *, memory, threads):
+    def __init__(self, graph, *, memory, threads, growing, bounded):
         self.graph, self.engine = graph, engine_for(graph)
-        self._threads, self._fields = threads, HeldFields(memory)
+        self._threads, self._fields, self._bounded = threads, HeldFields(memory), bounded
+        self._lists = nearest_seeds.HeldLists(memory, growing=growing)
         self._forget_sums()
 
     @property
     def nbytes(self):
-        """Bytes that the fields take now."""
-        return self._fields.nbytes
+        """Bytes that the fields or lists take now."""
+        return self._fields.nbytes + self._lists.nbytes
 
     def spread(self, pixels, values, settings, progress, cancelled):
         """Return what eq. 1 gives, as `AlongPaths`.
@@ -61,16 +66,32 @@ class Paths:
         method = {"engine": self.engine.name, "note": self.engine.note, "nearest": None}
         few = nearest_seeds.all_are_few(len(pixels), valid.size)
         if nearest is None or (nearest == "auto" and (self.engine.note or few)):
+            self._lists.clear()
 
             def exact(alpha, progress=lambda *_: None):
                 return self._exact(pixels, values, alpha, settings.kriging > 0, progress, cancelled)
 
             mean, near = exact(settings.alpha, progress)
             return AlongPaths(mean, method, near, lambda alpha: exact(alpha)[0])
+        self._fields.clear()
+        self._forget_sums()
         mean, found, near, lists = nearest_seeds.mean_of_nearest(
-            self.engine, pixels, values, valid, settings, self._threads, progress, cancelled
+            self.engine,
+            pixels,
+            values,
+            valid,
+            settings,
+            self._lists,
+            self._threads,
+            progress,
+            cancelled,
+            bounded=self._bounded,
         )
-        return AlongPaths(mean, method | found, near, lambda alpha: lists.blend(values, alpha)[0])
+
+        def again(alpha):
+            return lists.blend(values, alpha, bounded=False, threads=self._threads)[0]
+
+        return AlongPaths(mean, method | found, near, again)
 
     def _forget_sums(self):
         self._blend, self._blended = None, []

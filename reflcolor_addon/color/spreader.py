@@ -88,13 +88,16 @@ class Spreader:
         Of the scan, normalized to 0..255.
     settings : Settings
     memory : int
-        Bytes that fields may take. With 0, nothing else is kept, either.
+        Bytes that fields, or lists of nearest seeds, may take, of each kind of paths. With 0, nothing else is kept,
+        either.
     threads : int
         The number changes no bit of a result.
+    preview : bool
+        As for the `Colorizer`.
     """
 
-    def __init__(self, scan, luminance, range_image, settings, *, memory, threads):
-        self.scan, self.threads = scan, threads
+    def __init__(self, scan, luminance, range_image, settings, *, memory, threads, preview):
+        self.scan, self.threads, self._preview = scan, threads, preview
         self._luminance, self._range_image = luminance, range_image
         self._memory, self._held = memory, None
         self.settings = None
@@ -102,8 +105,8 @@ class Spreader:
 
     @property
     def nbytes(self):
-        """Bytes that the fields take now."""
-        return self._paths.nbytes
+        """Bytes that fields and lists of nearest seeds take now."""
+        return sum(paths.nbytes for paths in (self._paths, self._unsmoothed_paths) if paths is not None)
 
     @property
     def keeps(self):
@@ -123,9 +126,10 @@ class Spreader:
             self._features = None
         elif (before.beta, before.neighbors) == (settings.beta, settings.neighbors):
             return
-        self._paths = self._paths_over(self._smoothed, self._memory)
+        self._paths = self._paths_over(self._smoothed, bounded=not self._preview)
+        self._unsmoothed_paths = None
 
-    def _paths_over(self, luminance, memory):
+    def _paths_over(self, luminance, *, bounded):
         """The `Paths` over a (H, W) luminance."""
         graph = PixelGraph(
             luminance=luminance,
@@ -135,7 +139,7 @@ class Spreader:
             neighbors=self.settings.neighbors,
             wrap=self.scan.full_turn,
         )
-        return Paths(graph, memory=memory, threads=self.threads)
+        return Paths(graph, memory=self._memory, threads=self.threads, growing=self._preview, bounded=bounded)
 
     def spread(self, seeds, progress, cancelled):
         """Return what `Colorizer.spread` does, with the settings in use."""
@@ -218,7 +222,9 @@ class Spreader:
         if isinstance(nearest, int):
             nearest = min(nearest, UNSMOOTHED_NEAREST)
         settings = replace(self.settings, alpha=alpha, nearest=nearest)
-        paths = self._paths_over(self._luminance, memory=0)
+        paths = self._unsmoothed_paths or self._paths_over(self._luminance, bounded=False)
+        if self.keeps:
+            self._unsmoothed_paths = paths
         return paths.spread(pixels, values, settings, report, cancelled).mean.values
 
     def _directions(self, pixels):
@@ -255,7 +261,7 @@ class Spreader:
         def fill(chunk):
             estimate[inside[chunk]] = kriging.estimate(features[inside[chunk]])
 
-        chunks = kriging.chunks(inside.size)
+        chunks = kriging.chunks(inside.size, self.threads)
         with ThreadPoolExecutor(self.threads, "reflcolor") as pool:
             running = [pool.submit(fill, chunk) for chunk in chunks]
             try:

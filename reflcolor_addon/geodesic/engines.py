@@ -51,6 +51,10 @@ class NativeEngine:
         """Return the k nearest seeds of every pixel, as a `kernel.Nearest`; ``known`` is one of fewer."""
         return kernel.nearest(self._graph, pixels, k, threads=threads, known=known, control=control)
 
+    def extend(self, lists, pixels, first, control, *, threads=1):
+        """Add the seeds from index ``first`` on to the lists of those before them, in place."""
+        kernel.extend(lists, pixels, first, threads=threads, control=control)
+
 
 class ScipyEngine:
     """scipy's Dijkstra and NumPy: slower, and everywhere."""
@@ -82,15 +86,15 @@ class ScipyEngine:
 
     def nearest(self, pixels, k, control, *, threads=1, known=None):
         """Return the k nearest seeds of every pixel, as a `Listed`."""
-        distances = np.full((*self.shape, k + 1), np.inf, np.float32)
-        seeds = np.full((*self.shape, k + 1), -1, np.int32)
-        for seed, pixel in enumerate(pixels):
-            distances[..., k], seeds[..., k] = self.field(pixel, control), seed
-            seeds[..., k][np.isinf(distances[..., k])] = -1
-            order = np.argsort(distances, axis=-1, kind="stable")
-            distances, seeds = (np.take_along_axis(array, order, axis=-1) for array in (distances, seeds))
-            control.done = seed + 1
-        return Listed(distances[..., :k], seeds[..., :k])
+        lists = Listed(np.full((*self.shape, k), np.inf, np.float32), np.full((*self.shape, k), -1, np.int32))
+        self.extend(lists, pixels, 0, control)
+        return lists
+
+    def extend(self, lists, pixels, first, control, *, threads=1):
+        """Add the seeds from index ``first`` on to the lists of those before them, in place."""
+        for seed, pixel in enumerate(pixels[first:], first):
+            lists.add(self.field(pixel, control), seed)
+            control.done = seed + 1 - first
 
 
 class Listed:
@@ -105,14 +109,28 @@ class Listed:
     def __init__(self, distances, seeds):
         self._distances, self._seeds = distances, seeds
 
+    @property
+    def nbytes(self):
+        """Bytes that the lists take."""
+        return self._distances.nbytes + self._seeds.nbytes
+
+    def add(self, field, seed):
+        """Add a seed that lies as far as (H, W) ``field`` tells."""
+        distances = np.concatenate([self._distances, field[..., None]], axis=-1)
+        seeds = np.concatenate([self._seeds, np.where(np.isinf(field), -1, seed)[..., None]], axis=-1, dtype=np.int32)
+        order = np.argsort(distances, axis=-1, kind="stable")[..., :-1]
+        self._distances, self._seeds = (np.take_along_axis(array, order, axis=-1) for array in (distances, seeds))
+
     def at(self, pixels):
         """(P, k) distances and seeds of single pixels."""
         place = np.unravel_index(pixels, self._seeds.shape[:2])
         return self._distances[place], self._seeds[place]
 
-    def blend(self, values, alpha, *, control=None):
+    def blend(self, values, alpha, *, bounded=True, threads=1, control=None):
         """Return the mean over the seeds of every pixel, and its (H, W) bound."""
-        return blend_nearest(self._distances, self._seeds, values, alpha)
+        # Empty places would change the last bits of sums.
+        places = np.s_[..., : len(values)]
+        return blend_nearest(self._distances[places], self._seeds[places], values, alpha)
 
 
 class _Flag:

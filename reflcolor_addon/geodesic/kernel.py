@@ -20,7 +20,7 @@ adds n roundings, so that a distance d lies within (n + 7) u d of the exact one.
 from ..native.library import ABI_VERSION, Control, available, library_file, reason
 from .kernel_blend import MAX_CHANNELS, Blend, Mean
 from .kernel_graph import Graph, field
-from .kernel_nearest import MAX_NEAREST, Nearest, nearest
+from .kernel_nearest import MAX_NEAREST, Nearest, extend, nearest
 
 __all__ = [
     "ABI_VERSION",
@@ -32,6 +32,7 @@ __all__ = [
     "Mean",
     "Nearest",
     "available",
+    "extend",
     "field",
     "library_file",
     "nearest",

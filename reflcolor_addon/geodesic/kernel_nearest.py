@@ -51,9 +51,7 @@ def nearest(graph, pixels, k, *, threads=1, known=None, control=None):
     lists = (0, None) if known is None else (known._k, address(known._plane))
     arguments = pixels.size, address(pixels), k, *lists, address(bound)
     check(library().rc_nearest_bounds(graph._c, *arguments, pointer_to(control)))
-    # By rows, because then the parts have few pixels in common.
-    parts = np.array_split(np.argsort(pixels, kind="stable"), min(threads, MAX_PARTS, pixels.size))
-    parts = [np.sort(part).astype(np.int32) for part in parts]
+    parts = _parts(pixels, 0, threads)
     with ThreadPoolExecutor(len(parts), "reflcolor") as pool:
         run = pool.map if len(parts) > 1 else map
         found = _searched(graph, pixels, k, bound, parts, run, control)
@@ -63,32 +61,88 @@ def nearest(graph, pixels, k, *, threads=1, known=None, control=None):
     return found
 
 
-def _searched(graph, pixels, k, bound, parts, run, control):
-    """The Nearest of the seeds of all parts; None if a bound was too low, as rounding could in principle make it."""
+def extend(found, pixels, first, *, threads=1, control=None):
+    """Add seeds to the lists that `nearest` found: far less work than finding them anew.
+
+    A new seed is sought only as far as it is nearer than the last one of a list. The distances become those that
+    `nearest` finds for all seeds at once, to the bit. Where several seeds are equally far, others of them may be listed
+    last than there.
+
+    Parameters
+    ----------
+    found : Nearest
+        Is changed; after an error or a cancellation it is of no more use.
+    pixels : (S,) int
+        One per seed, as for `nearest`: those that are listed, and behind them the new ones.
+    first : int
+        Index of the first new one.
+    threads : int, optional
+    control : Control, optional
+
+    Raises
+    ------
+    Cancelled, ReflcolorError, MemoryError
+    """
+    graph, k = found._graph, found._k
+    pixels = graph._pixels(pixels)
+    control = control or Control()
+    bound, inner = graph._plane()
+    inner[...] = found._grid[:, :, k - 1 : k]
+    # What the rim holds of an image that goes all the way round; it is never looked at in others.
+    rows = bound[: (graph.shape[0] + 2) * (graph.shape[1] + 2)].reshape(graph.shape[0] + 2, -1)
+    rows[:, 0], rows[:, -1] = rows[:, -2], rows[:, 1]
+    parts = _parts(pixels, first, min(threads, MAX_PARTS - 1))
+    with ThreadPoolExecutor(len(parts), "reflcolor") as pool:
+        _searched(graph, pixels, k, bound, parts, pool.map if len(parts) > 1 else map, control, found)
+
+
+def _parts(pixels, first, count):
+    """Indices of the seeds from ``first`` on, in up to ``count`` ascending int32 arrays, one for each thread."""
+    # By rows, because then the parts have few pixels in common.
+    order = first + np.argsort(pixels[first:], kind="stable")
+    return [np.sort(part).astype(np.int32) for part in np.array_split(order, min(count, MAX_PARTS, order.size))]
+
+
+def _searched(graph, pixels, k, bound, parts, run, control, found=None):
+    """The Nearest of the seeds of all parts, and of those of ``found``, which then becomes the result.
+
+    None if a bound was too low, as rounding could in principle make it; those of ``found`` are exact.
+    """
     results = [(Nearest(graph, k), np.zeros(bound.size, np.uint8)) for _ in parts]
+    # Rows in which there is something to merge.
+    rows = range(0, graph.shape[0], _ROWS_AT_ONCE)
 
     def search(part, result):
-        found, listed = result
+        new, listed = result
         own = np.ascontiguousarray(pixels[part])
-        arguments = part.size, address(own), address(part), k, address(found._plane), address(listed)
+        arguments = part.size, address(own), address(part), k, address(new._plane), address(listed)
         check(library().rc_nearest_part(graph._c, address(bound), *arguments, pointer_to(control)))
 
     for _ in run(search, parts, results):
         pass
-    labels = np.array([address(found._plane) for found, _ in results], np.uintp)
+    if found is not None:
+        rows = [top for top in rows if any(_has_new(graph, listed, top) for _, listed in results)]
+        results.insert(0, (found, np.ones(bound.size, np.uint8)))
+    labels = np.array([address(each._plane) for each, _ in results], np.uintp)
     listed = np.array([address(listed) for _, listed in results], np.uintp)
 
     def merge(top):
-        rows = top, min(top + _ROWS_AT_ONCE, graph.shape[0])
+        end = min(top + _ROWS_AT_ONCE, graph.shape[0])
         arguments = address(bound), k, len(results), address(labels), address(listed)
-        return library().rc_nearest_merge(graph._c, *rows, *arguments, pointer_to(control))
+        return library().rc_nearest_merge(graph._c, top, end, *arguments, pointer_to(control))
 
-    codes = list(run(merge, range(0, graph.shape[0], _ROWS_AT_ONCE)))
+    codes = list(run(merge, rows))
     if SHORT in codes:
         return None
     for code in codes:
         check(code)
     return results[0][0]
+
+
+def _has_new(graph, listed, top):
+    """Whether a plane of bytes has any set in the rows that are merged at once from ``top`` on."""
+    width = graph.shape[1] + 2
+    return listed[(top + 1) * width : (top + 1 + _ROWS_AT_ONCE) * width].any()
 
 
 class Nearest:
@@ -117,7 +171,12 @@ class Nearest:
         lists = self._grid[np.unravel_index(pixels, self._graph.shape)]
         return lists[:, : self._k], lists[:, self._k :].view(np.int32)
 
-    def blend(self, values, alpha, *, control=None):
+    @property
+    def nbytes(self):
+        """Bytes that the lists take."""
+        return self._plane.nbytes
+
+    def blend(self, values, alpha, *, bounded=True, threads=1, control=None):
         """Take equation 1 over the k nearest seeds of every pixel.
 
         Parameters
@@ -125,12 +184,15 @@ class Nearest:
         values : (S, C) float
             What is blended, of all seeds: chrominance, or a whole color; C is 1 to 4.
         alpha : float
+        bounded : bool, optional
+            Whether the bound is wanted, which takes a third of the time.
+        threads : int, optional
         control : Control, optional
 
         Returns
         -------
         mean : Mean
-        bound : (H, W) float32
+        bound : (H, W) float32, or None
             The most by which the seeds left out could change any channel, if each lies no nearer than the k-th.
         """
         shape, values = self._graph.shape, checked_values(values)
@@ -141,15 +203,21 @@ class Nearest:
             nearest_seed=np.empty(shape, np.int32),
             least=np.empty(shape, np.float32),
         )
-        bound = np.empty(shape, np.float32)
-        outputs = [address(each) for each in (mean.least, mean.nearest_seed, mean.weight, mean.values, bound)]
+        bound = np.empty(shape, np.float32) if bounded else None
+        outputs = [address(each) for each in (mean.least, mean.nearest_seed, mean.weight, mean.values)]
+        outputs.append(address(bound) if bounded else None)
         rows = max(1, PIXELS_AT_ONCE // shape[1])
-        for row in range(0, shape[0], rows):
+
+        def blend_rows(row):
             if control and control.cancelled:
                 raise Cancelled
             arguments = row, min(row + rows, shape[0]), self._k, address(self._plane)
             arguments += *values.shape, address(values), alpha
             check(library().rc_blend_nearest(self._graph._c, *arguments, *outputs))
+
+        with ThreadPoolExecutor(threads, "reflcolor") as pool:
+            for _ in (pool.map if threads > 1 else map)(blend_rows, range(0, shape[0], rows)):
+                pass
         return mean, bound
 
     def _complete(self):

@@ -1,5 +1,6 @@
 """The report of a run: inputs, settings and outputs, complete enough to repeat it."""
 
+import functools
 import hashlib
 import importlib.metadata
 import json
@@ -233,6 +234,7 @@ def versions(blender=None):
     }
 
 
+@functools.cache
 def _package_version(name):
     try:
         return importlib.metadata.version(name)

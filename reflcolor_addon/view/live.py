@@ -2,6 +2,7 @@
 
 import threading
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ..color.tone import toned
 from ..errors import Cancelled
 from ..scan.normalization import normalize
 from ..scan.scan import Scan
+from ..threads import in_threads, thread_count
 
 # The coarse result has about this many pixels; a scan that has few more is colorized at once.
 COARSE_PIXELS = 60_000
@@ -135,6 +137,9 @@ class _LiveScan:
     def __init__(self, scan):
         self._scan = scan
         self._luminance, _ = normalize(scan.reflectance, scan.valid)
+        # One for each thread that paints.
+        edges = np.linspace(0, scan.shape[0], thread_count() + 1).astype(int)
+        self._strips = [slice(top, bottom) for top, bottom in pairwise(edges)]
         self._stride = int(np.ceil(np.sqrt(scan.valid.size / COARSE_PIXELS)))
         self._fine = self._coarse = None
 
@@ -151,17 +156,23 @@ class _LiveScan:
         if self._stride == 1 or (self._coarse is None and not self._scan.valid[:: self._stride, :: self._stride].any()):
             return None
         if self._coarse is None:
-            self._coarse = Colorizer(self._fewer_pixels(), settings)
+            self._coarse = Colorizer(self._fewer_pixels(), settings, preview=True)
         rows, cols = seeds.rows // self._stride, seeds.cols // self._stride
         fewer, _ = replace(seeds, rows=rows, cols=cols).placed_on(self._coarse.scan)
         spread, _ = self._coarse.spread(fewer, settings, cancelled=cancelled)
         colored = self._coarse.joined(spread, fewer, None if observed is None else observed.thinned(self._stride))
         # Enlarged together with their mask, so that pixels beside missing values are not mixed with them.
         reached = colored.reached[..., None].astype(np.float32)
-        values, share = (self._enlarged(each) for each in (colored.values * reached, reached))
-        values /= np.maximum(share, np.finfo(np.float32).tiny)[..., None]
-        gray = lightness(self._luminance, values, share > 0, settings)
-        rgb = colorspaces.merge(gray, values[..., CHROMINANCE], settings.color_space)
+        values, share = self._enlarged(colored.values * reached), self._enlarged(reached)
+        rgb = np.empty((*self._scan.shape, 3), np.uint8)
+
+        def paint(strip):
+            own = values[strip] / np.maximum(share[strip], np.finfo(np.float32).tiny)[..., None]
+            gray = lightness(self._luminance[strip], own, share[strip] > 0, settings)
+            rgb[strip] = colorspaces.merge(gray, own[..., CHROMINANCE], settings.color_space)
+
+        for _ in in_threads(paint, self._strips):
+            pass
         rgb[~self._scan.valid] = 0
         if settings.light == 1 and colored.weight.any():
             # Observed colors exist at the full size already.
