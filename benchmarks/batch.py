@@ -1,11 +1,15 @@
-"""How fast a batch is: python -m benchmarks.batch [--scans N] [--photos M] [--rounds R]
+"""How fast a batch is: python -m benchmarks.batch [--scans N] [--photos M] [--rounds R] [--folder DIR]
 
 The archive of benchmarks.archive is worked on by a batch of one process for each processor, by one process with all
 threads, and by one process that is held to one processor, in turn; the medians of the times by the clock are compared.
 Memory is the most that all processes had together, beside the budget.
+
+The machine must do nothing else. With --folder the archive and what was measured are kept there, and the command goes
+on with the run that it was interrupted in.
 """
 
 import argparse
+import json
 import os
 import shutil
 import statistics
@@ -28,8 +32,10 @@ def main():
     parser.add_argument("--scans", type=int, default=60)
     parser.add_argument("--photos", type=int, default=12)
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--folder", type=Path, help="where to put the archive, and to keep it")
     arguments = parser.parse_args()
-    folder = Path(tempfile.mkdtemp(prefix="batch-"))
+    folder = arguments.folder or Path(tempfile.mkdtemp(prefix="batch-"))
+    folder.mkdir(parents=True, exist_ok=True)
     make(folder, arguments.scans, arguments.photos)
     count = thread_count()
     ways = {
@@ -37,19 +43,21 @@ def main():
         "one process, all threads": (1, None),
         "one process, one thread": (1, {min(os.sched_getaffinity(0))}),
     }
-    times, peaks = {way: [] for way in ways}, {way: [] for way in ways}
-    for _ in range(arguments.rounds):
-        for way, (jobs, processors) in ways.items():
-            seconds, peak = run(folder, jobs, processors)
-            times[way].append(seconds)
-            peaks[way].append(peak)
-            print(f"{way}: {seconds:.1f} s, at most {peak / 1e9:.2f} GB", flush=True)
+    known = folder / "measured.json"
+    measured = json.loads(known.read_text()) if known.is_file() else []
+    todo = [way for _ in range(arguments.rounds) for way in ways]
+    for way in todo[len(measured) :]:
+        measured.append([way, *run(folder, *ways[way])])
+        known.write_text(json.dumps(measured))
+        print("{}: {:.1f} s, at most {:.2f} GB".format(*measured[-1][:2], measured[-1][2] / 1e9), flush=True)
+    times, peaks = ({way: [own[k] for own in measured if own[0] == way] for way in ways} for k in (1, 2))
     first, *others = (statistics.median(times[way]) for way in ways)
     print(f"{arguments.scans} scans, {arguments.photos} photos, {arguments.rounds} rounds, medians:")
     for way, seconds in zip(list(ways)[1:], others, strict=True):
         print(f"{next(iter(ways))} have {seconds / first:.2f} x the throughput of {way}")
     print(f"memory: at most {max(map(max, peaks.values())) / 1e9:.2f} GB of the {BUDGET_GB} GB that were allowed")
-    shutil.rmtree(folder)
+    if arguments.folder is None:
+        shutil.rmtree(folder)
 
 
 def run(folder, jobs, processors):

@@ -1,10 +1,10 @@
 """What grows with the number of scans in a batch, beside the work itself: python -m benchmarks.scale [COUNT ...]
 
-For archives of so many scans that exist only as names and records (by default 1,000 and 10,000): processor time of
-reading and checking a manifest, of hashing the files (which are nearly empty), of the report page; the size of what is
-kept, and the most memory. The report and the picture of one small scan stand for all. Before that, what one scan of a
-megapixel takes with 200 seeds, as a run of its own: processor time and memory. What a pair of scan and photo takes is
-printed by benchmarks.archive.
+For archives of so many scans (by default 1,000 and 10,000), which are links to one of 104 pixels: processor time of
+reading and checking a manifest, of reading the headers of all scans, as --check does, of hashing the files, of choosing
+pairs, of the report page; the size of what is kept, and the most memory. The report and the picture of one small scan
+stand for all. Before that, what one scan of a megapixel takes with 200 seeds, as a run of its own: processor time and
+memory. What a pair of scan and photo takes is printed by benchmarks.archive.
 """
 
 import argparse
@@ -20,8 +20,9 @@ import numpy as np
 from benchmarks.rooms import Room
 from benchmarks.run_apart import measured
 from reflcolor_addon import Scan, Seeds
-from reflcolor_addon.batch.archive.candidates import candidates
+from reflcolor_addon.batch.archive.candidates import chosen, ranks
 from reflcolor_addon.batch.archive.check import check_manifest
+from reflcolor_addon.batch.archive.check_files import check_files
 from reflcolor_addon.batch.archive.fingerprints import Fingerprints
 from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.cli.main import main as command_line
@@ -29,6 +30,8 @@ from reflcolor_addon.files.writers import write_e57, write_ptx
 from reflcolor_addon.report.archive import write_page
 
 _PHOTOS = 100
+# File systems allow a file only so many names.
+_LINKS = 30_000
 _HEAD = 'format = "reflcolor-batch"\nversion = 1\noutput = "colored"\nseeds = "seeds.json"\nscans = "*.ptx"\n'
 
 
@@ -82,17 +85,24 @@ def _measure(root, count):
     report, picture = ((root / "colored" / "reports" / f"scan{end}").read_bytes() for end in (".json", ".jpg"))
     (root / "scan.ptx").unlink()
     for number in range(count):
-        (root / f"scan_{number:06d}.ptx").write_bytes(b"1\n")
+        path = root / f"scan_{number:06d}.ptx"
+        if number % _LINKS == 0:
+            first = path
+            write_ptx(Room(0).scan(8, 13, 6.0), path)
+        else:
+            path.hardlink_to(first)
         for data, end in ((report, ".json"), (picture, ".jpg")):
             (root / "colored" / "reports" / f"scan_{number:06d}{end}").write_bytes(data)
     manifest = _timed("reading the manifest", lambda: load_manifest(root / "batch.toml", sys.exit))
     _timed("checking it", lambda: check_manifest(manifest, None, sys.exit))
+    quiet = {"decode": True, "progress": lambda *_: None}
+    _timed("reading the headers of all scans", lambda: check_files(manifest, manifest.items, sys.exit, **quiet))
     hashes = Fingerprints(manifest.folder)
     _timed("hashing the files", lambda: [hashes.of(item.plan.scans[0]) for item in manifest.items])
     _timed("writing down the hashes", hashes.save)
     photos = [f"photo_{number}.jpg" for number in range(_PHOTOS)]
     scores = {item.name: dict(zip(photos, np.random.random(_PHOTOS).tolist(), strict=True)) for item in manifest.items}
-    _timed(f"choosing pairs of {_PHOTOS} photos with all scans", lambda: candidates(scores))
+    _timed(f"choosing pairs of {_PHOTOS} photos with all scans", lambda: chosen(ranks(scores)))
     scores.clear()
     session = SimpleNamespace(progress=lambda *_: None, warnings=[])
     _timed("the report page", lambda: write_page(manifest.folder.root, session))

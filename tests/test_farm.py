@@ -51,7 +51,7 @@ def given(parameters):
 def test_the_template_is_valid_and_has_all_steps(parameters):
     assert openjd("check", TEMPLATE).returncode == 0
     told = json.loads(openjd("summary", TEMPLATE, *given(parameters), "--output", "json").stdout)
-    assert [step["name"] for step in told["steps"]] == ["Look", "Color", "Render", "Report"]
+    assert [step["name"] for step in told["steps"]] == ["Look", "Match", "Color", "Render", "Report"]
 
 
 @pytest.mark.slow
@@ -100,9 +100,10 @@ def test_the_flamenco_job_type_makes_the_tasks_in_order():
         "scans_per_task",
     }
     tasks = {task["name"]: task for task in told["tasks"]}
-    assert list(tasks) == ["look 1-3", "look 4-5", "color 1-3", "color 4-5", "render 1-3", "render 4-5", "report"]
+    stages = ("look", "match", "color", "render")
+    assert list(tasks) == [*(f"{stage} {index}" for stage in stages for index in ("1-3", "4-5")), "report"]
     assert tasks["look 1-3"]["before"] == []
-    assert tasks["color 4-5"]["before"] == ["look 1-3", "look 4-5"]
+    assert tasks["color 4-5"]["before"] == ["match 1-3", "match 4-5"]
     assert tasks["report"]["before"] == ["render 1-3", "render 4-5"]
     for name, task in tasks.items():
         (command,) = task["commands"]

@@ -9,7 +9,7 @@ from e57_samples import write_e57
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reflcolor_addon.batch.archive.candidates import ALL_PAIRS, MOST_SCANS, _Neighbors, are_few, candidates, ranked
+from reflcolor_addon.batch.archive.candidates import ALL_PAIRS, MOST_SCANS, _Neighbors, are_few, chosen, ranks
 from reflcolor_addon.files.exif import Moment, moment_of
 from reflcolor_addon.files.readers.e57_file import acquired_at
 
@@ -76,6 +76,12 @@ def test_a_scan_tells_when_it_was_taken(tmp_path):
     assert acquired_at(tmp_path / "missing.e57") is None
 
 
+def candidates(*given):
+    """For each item its photos."""
+    found = chosen(ranks(*given))
+    return {name: found.get(name, []) for name in given[0]}
+
+
 def test_a_photo_goes_to_the_scans_that_it_looks_most_like():
     scores = {f"scan {number}": {"a": 10.0 + number, "b": 1.0, "c": 1.0} for number in range(MOST_SCANS + 2)}
     chosen = candidates(scores)
@@ -92,7 +98,8 @@ def test_in_a_small_archive_every_photo_is_tried_what_looks_best_first():
     assert are_few(12, 20)
     assert are_few(1, ALL_PAIRS)
     assert not are_few(30, 40)
-    assert ranked({"hall": {"a": 1.0, "b": 9.0, "c": 1.0}}) == {"hall": ["b", "a", "c"]}
+    scores = {"hall": {"a": 1.0, "b": 9.0, "c": 0.0}, "cellar": {"a": 9.0, "b": 0.0, "c": 0.0}}
+    assert chosen(ranks(scores), all_of_them=True) == {"hall": ["b", "a", "c"], "cellar": ["a", "b", "c"]}
 
 
 # By its looks alone, "b" goes to the cellar.

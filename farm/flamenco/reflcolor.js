@@ -24,10 +24,11 @@ function compileJob(job) {
         throw "scans and scans_per_task: expected whole numbers from 1";
     }
     const looks = stage(settings, "look", []);
-    const colors = stage(settings, "color", looks);
+    const matches = stage(settings, "match", looks);
+    const colors = stage(settings, "color", matches);
     const renders = stage(settings, "render", colors);
     const report = task("report", ["report", settings.output, "--fail"], renders);
-    for (const each of [...looks, ...colors, ...renders, report]) {
+    for (const each of [...looks, ...matches, ...colors, ...renders, report]) {
         job.addTask(each);
     }
 }

@@ -25,7 +25,7 @@ from .plan import filled
 from .read import read_jobs
 from .scan_job import require_reflectance
 from .session import timed
-from .write import write_uncolored, writing
+from .write import pictured, write_uncolored, writing
 
 # Where reading and matching begin, and which share of a run they are, roughly; the rest is coloring and writing.
 _READING, _MATCHING = (0.0, 0.1), (0.1, 0.7)
@@ -57,6 +57,12 @@ def run_plan(plan, session):
     jobs = read_jobs(plan, given, session, times)
     for job in jobs:
         session.warnings += job.scan.warnings
+    with pictured(plan, list(jobs)):
+        _run_jobs(plan, jobs, times, session)
+
+
+def _run_jobs(plan, jobs, times, session):
+    """Find the seeds of jobs whose scans were read, color them, and write what the plan asks for."""
     require_run(plan, jobs)
     if plan.colors is not None:
         _take_colors(jobs, plan)

@@ -1,8 +1,9 @@
 """Writes what a run has made: each scan's own files, then scenes that hold all scans, reports last."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from ..errors import ReflcolorError
 from ..files.images import png_bytes, write_jpeg, write_png
 from ..files.writers import MESH_WRITERS
 from ..files.writers.scans_back import ColoredScan, write_scans_back
@@ -47,10 +48,27 @@ def writing(plan, jobs, session):
 
 
 def write_uncolored(plan, job):
-    """Write the preview of a job that is left out because no photo shows it, where the plan asks for previews."""
+    """Write the preview of a job that gets no colors, where the plan asks for previews."""
     for output in plan.outputs:
         if output.kind == PREVIEW:
             write_jpeg(output.of(job.label).path, uncolored_preview(job.opened()))
+
+
+@contextmanager
+def pictured(plan, jobs):
+    """Where the block fails, write the previews of the jobs that have none from an earlier time: a person wants to see
+    which scan it was that failed."""
+    try:
+        yield
+    except ReflcolorError:
+        paths = [output for output in plan.outputs if output.kind == PREVIEW]
+        for job in jobs:
+            missing = not all(output.of(job.label).path.exists() for output in paths)
+            # What made the block fail, a full disk for example, may also prevent this.
+            with suppress(ReflcolorError):
+                if missing and job.scan is not None:
+                    write_uncolored(plan, job)
+        raise
 
 
 class _Writer:

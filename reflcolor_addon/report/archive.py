@@ -170,7 +170,9 @@ def _tiles(entry):
 
 
 def _details_of(entry):
-    note = f"<p>{escape(entry['note'])}</p>" if entry["note"] and not entry["warnings"] else ""
+    # Warnings about colors are among the details.
+    told = entry["warnings"] and entry["state"] in ("done", "guessed")
+    note = f"<p>{escape(entry['note'])}</p>" if entry["note"] and not told else ""
     inside = entry["details"] + entry["tried"]
     return note + (f"<details><summary>Details</summary>{inside}</details>" if inside else "")
 

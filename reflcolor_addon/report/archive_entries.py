@@ -46,7 +46,7 @@ def entries_of(root, session):
         `COLUMNS`, and ``details``, ``tried`` (HTML), ``preview`` (a path or None) and ``tiles`` (what it shows).
     """
     paths = sorted((root / REPORTS).glob("*.json"))
-    entries, items = {}, _items(root)
+    entries, duplicates, items = {}, {}, _items(root)
     for number, path in enumerate(paths):
         session.progress(number / len(paths), Message("Writing the report: {name}", name=path.stem))
         try:
@@ -62,13 +62,17 @@ def entries_of(root, session):
             entries[label] = _uncolored(root, label, item)
         if item.get("outcome") == "failed":
             own = [label for label in entries if label == name or label.startswith(f"{name}+")]
-            for label in own or [name]:
-                entry = entries.setdefault(label, _entry(label, "failed"))
+            for label in own or _pictured(root, name) or [name]:
+                entry = entries.setdefault(label, _entry(label, "failed", **_one_picture(root, label)))
                 entry.update(state="failed", note=str(item.get("error", "")))
         if item.get("outcome") == "duplicate":
             note = f"the same as {item.get('same_as', 'another scan')}, whose results are its own, too"
             entries[name] = _entry(name, "duplicate", note=note)
+            duplicates[name] = str(item.get("same_as", ""))
         _add_tried(entries, _pairs(item))
+    for name, same in duplicates.items():
+        first = entries.get(same, entries[name])
+        entries[name] |= {"preview": first["preview"], "tiles": first["tiles"]}
     _add_scans(entries, _read_item(root / STATE / f"{SCANS}.json").get("scans"))
     return [entries[name] for name in sorted(entries, key=str.casefold)]
 
@@ -82,16 +86,19 @@ def _uncolored(root, label, item):
         if tried
         else "no photo looks like it, so it has no colors"
     )
+    counts = {"photos": len(tried) or "", "verified_photos": 0 if tried else ""}
+    return _entry(label, "unshown", note=note, **counts, **_one_picture(root, label))
+
+
+def _one_picture(root, label):
+    """The preview of a scan without colors, where there is one."""
     preview = root / REPORTS / f"{label}.jpg"
-    return _entry(
-        label,
-        "unshown",
-        photos=len(tried) or "",
-        verified_photos=0 if tried else "",
-        note=note,
-        preview=preview if preview.is_file() else None,
-        tiles=TILES[:1],
-    )
+    return {"preview": preview if preview.is_file() else None, "tiles": TILES[:1]}
+
+
+def _pictured(root, name):
+    """The labels of a file's scans that have a preview, where it holds several."""
+    return sorted(path.stem for path in (root / REPORTS).glob("*.jpg") if path.stem.startswith(f"{name}+"))
 
 
 def _pairs(item):
@@ -110,6 +117,15 @@ def _add_tried(entries, pairs):
         if label in entries:
             lines = (f"{pair['photo']}: {pair['note']} (evidence {pair['evidence']:.2f})" for pair in own)
             entries[label]["tried"] = "<p>Photos tried; evidence of 1 or more is enough</p>" + _list(lines)
+            _add_doubts(entries[label], [f"{pair['photo']}: {pair['doubt']}" for pair in own if pair.get("doubt")])
+
+
+def _add_doubts(entry, doubts):
+    """Warn of photos that seem to show several places."""
+    if doubts:
+        entry["warnings"] = (entry["warnings"] or 0) + len(doubts)
+        entry["note"] = "; ".join(filter(None, (entry["note"], *doubts)))
+        entry["details"] = "<p>Photos that seem to show several places</p>" + _list(doubts) + entry["details"]
 
 
 def _add_scans(entries, scans):

@@ -8,7 +8,8 @@ from ...files.exif import Moment
 
 # Up to so many pairs of a scan and a photo, all are matched: first looks save little there, and may miss what fits.
 ALL_PAIRS = 300
-# How many scans each photo is matched with at most, and how much lower their scores may be than the best one's.
+# How many scans each photo is matched with at most where nothing is known of others, and how much less likely they may
+# be than the likeliest.
 MOST_SCANS, LEAST_SHARE = 6, 0.4
 # Photos taken within this many seconds, or meters, of each other probably show the same thing.
 _TOGETHER_S, _TOGETHER_M = 60.0, 10.0
@@ -17,8 +18,8 @@ _SAME_DAY_S, _ANOTHER_DAY = 14 * 3600.0, 0.5
 _METERS_PER_DEGREE = 111_195.0
 
 
-def candidates(scores, moments=None, scanned=None):
-    """Choose which photos are matched with which scans.
+def ranks(scores, moments=None, scanned=None):
+    """Put the scans in order that each photo may show.
 
     Parameters
     ----------
@@ -31,8 +32,8 @@ def candidates(scores, moments=None, scanned=None):
 
     Returns
     -------
-    dict of str to list of str
-        For each item its photos, what looks best first.
+    dict of str to list of (str, float)
+        For each photo its items, the likeliest first, and how likely each is as a share of that.
     """
     scanned = scanned or {}
     # A scan with much detail gets higher scores with every photo; what counts is how much a photo stands out.
@@ -43,31 +44,39 @@ def candidates(scores, moments=None, scanned=None):
             shares.setdefault(photo, {})[name] = score / usual[name]
     shares = {photo: _of_the_best(own) for photo, own in shares.items()}
     moments = {photo: its for photo, its in (moments or {}).items() if photo in shares and its != Moment()}
-    others = _Neighbors(moments)
-    supported = {photo: _supported(photo, shares, others) for photo in shares}
-    chosen = {name: [] for name in scores}
-    for photo, own in supported.items():
-        moment = moments.get(photo)
+    others, ranked = _Neighbors(moments), {}
+    for photo in shares:
+        own, moment = _supported(photo, shares, others), moments.get(photo)
         if moment is not None and moment.seconds is not None:
             own = {name: share * _of_its_day(moment.seconds, scanned.get(name)) for name, share in own.items()}
-        ranked = sorted(_of_the_best(own).items(), key=lambda entry: (-entry[1], entry[0]))
-        for name, share in ranked[:MOST_SCANS]:
-            if share >= LEAST_SHARE:
-                chosen[name].append((share, photo))
+        ranked[photo] = sorted(_of_the_best(own).items(), key=lambda entry: (-entry[1], entry[0]))
+    return ranked
+
+
+def chosen(ranked, all_of_them=False):
+    """Return for each item the photos that are worth matching with it, what looks best first.
+
+    Parameters
+    ----------
+    ranked : dict of str to list of (str, float)
+        From `ranks`.
+    all_of_them : bool
+        Not only the likeliest.
+    """
+    found = {}
+    for photo, own in ranked.items():
+        for name, share in own if all_of_them else own[:MOST_SCANS]:
+            if all_of_them or share >= LEAST_SHARE:
+                found.setdefault(name, []).append((share, photo))
     return {
         name: [photo for _, photo in sorted(own, key=lambda entry: (-entry[0], entry[1]))]
-        for name, own in chosen.items()
+        for name, own in found.items()
     }
 
 
 def are_few(scans, photos):
     """Whether all pairs of so many scans and photos are matched, whatever the first looks say."""
     return scans * photos <= ALL_PAIRS
-
-
-def ranked(scores):
-    """Return all photos of each item, what looks best first; ``scores`` as for `candidates`."""
-    return {name: sorted(own, key=lambda photo: (-own[photo], photo)) for name, own in scores.items()}
 
 
 def _of_the_best(shares):

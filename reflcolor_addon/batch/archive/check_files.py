@@ -8,6 +8,7 @@ from ...files.readers import scan_pixels
 from ...files.readers.options import BY_ANGLE, LIGHTER
 from ...messages import Message, value_of
 from .costs import Costs
+from .passing import may_pass
 
 _WAYS = {BY_ANGLE: 'reading = { grid = "angle" }', LIGHTER: "reading = { step = 2 }"}
 """What a manifest has for the ways out that errors of readers name."""
@@ -30,7 +31,7 @@ def check_files(manifest, items, refuse, *, decode, progress):
     Returns
     -------
     Costs
-        By the sizes found.
+        By the sizes found, with what is wrong with the files that cannot be used.
     """
     scans = {path: (item.line, item.plan) for item in items for path in item.plan.scans}
     photos = {path: manifest.photo_lines[path] for item in items for path in item.plan.photos}
@@ -45,6 +46,8 @@ def check_files(manifest, items, refuse, *, decode, progress):
             return act()
         except (ReflcolorError, UsageError) as error:
             problem = _with_way(_naming(error.message, path, name))
+            if not may_pass(error):
+                found.unusable[path] = problem
             refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=line, problem=problem))
             return None
 

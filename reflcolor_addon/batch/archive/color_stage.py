@@ -12,24 +12,25 @@ from ..plan import IMAGE, PLACEHOLDER, RENDER, Output
 from ..plan_document import as_document
 from .options import COLOR, FAILED, KNOWN, UNSHOWN
 from .pairs_table import write_table
-from .stage import work_on
+from .stage import remember_item, work_on
 from .workers import Task
 
 
-def colorize_items(context, states, photos):
+def colorize_items(context, states, matched):
     """Colorize items.
 
     Parameters
     ----------
     context : Context
     states : list of State
-    photos : dict of str to list of str
-        The photos of the items that are offered those of the whole batch, by their names.
+    matched : Matched
+        Which photos of the whole batch show the items that are offered these.
     """
     pieces = []
     for number, state in enumerate(states):
         context.session.progress(number / len(states), Message("Looking for changes: {name}", name=state.item.name))
-        plan = color_plan(context, state.item, photos)
+        plan = color_plan(context, state.item, matched)
+        state.matched = matched.told(state.item.name)
         inputs = [path for _, path in inputs_of(plan, plan.scans)]
         for given in filter(None, (plan.seeds, plan.hand)):
             for path in files_of_each(given, plan.name):
@@ -48,13 +49,16 @@ def colorize_items(context, states, photos):
         work_on(context, COLOR, pieces)
     except Cancelled:
         # What was found so far is worth reading.
-        write_table(context)
+        write_table(context, matched)
         raise
     for state in states:
         if state.outcome == KNOWN and state.left_out and not _written(context, state):
             state.outcome = UNSHOWN
+        if state.outcome in (KNOWN, UNSHOWN):
+            # Other photos may have been tried since it was done.
+            remember_item(context, state)
     try:
-        write_table(context)
+        write_table(context, matched)
     except OutputError as error:
         # A full disk costs scans, too, and these are told last.
         if not any(state.outcome == FAILED for state in states):
@@ -62,14 +66,18 @@ def colorize_items(context, states, photos):
         context.session.complain(str(error))
 
 
-def color_plan(context, item, photos):
-    """Return the plan of an item with the photos that it is matched with, and without pictures to render.
+def color_plan(context, item, matched):
+    """Return the plan of an item with the photos that show it, and without pictures to render.
 
     A picture is rendered from the colorized image, so that this is written, too.
     """
     plan = item.plan
     if item.offered:
-        plan = replace(plan, photos=tuple(map(Path, photos.get(item.name, []))))
+        photos = list(map(Path, matched.photos(item)))
+        for path in files_of_each(plan.hand, plan.name) if plan.hand else ():
+            # A person knows that these show it.
+            photos += [photo for photo in photos_named(path, plan.photos) if photo in plan.photos]
+        plan = replace(plan, photos=tuple(dict.fromkeys(photos)))
     outputs = [output for output in plan.outputs if output.kind != RENDER]
     if len(outputs) < len(plan.outputs) and not any(output.kind == IMAGE for output in outputs):
         outputs.insert(0, Output("write", context.folder.result(PLACEHOLDER, ".png"), IMAGE))

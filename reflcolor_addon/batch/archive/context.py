@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from ...errors import ReflcolorError
+from ...messages import Message
 from ..session import Session
 from .costs import Costs
 from .done import Done
@@ -92,6 +93,38 @@ class Context:
 
         self.workers.work(tasks, counted, show, begun)
         self.session.progress(left.share(), f"{what} {done} of {count}")
+
+    def work_again(self, tasks: list[Task], done: Callable, failed: Callable, what: str):
+        """Run tasks, those again that failed for something that may pass.
+
+        Parameters
+        ----------
+        tasks : list of Task
+        done : callable
+            Called as ``done(task, outcome)``.
+        failed : callable
+            Called as ``failed(task)`` for each that was not done in the end.
+        what : str
+            As `work`.
+        """
+        tries = dict.fromkeys((task.name for task in tasks), 1)
+
+        def finished(task, outcome):
+            if outcome["done"]:
+                done(task, outcome)
+            elif outcome.get("may_pass") and tries[task.name] < self.options.tries:
+                tries[task.name] += 1
+                alone = outcome.get("alone", False)
+                tasks.append(task.again(0.0 if alone else self.options.wait_s, alone))
+            else:
+                failed(task)
+
+        self.work(tasks, finished, what)
+
+    def tell_problem(self, path, problem):
+        """Say why a photo cannot be used, and remember it."""
+        self.problems[path] = problem
+        self.session.warnings.append(Message("{photo}: {problem}", photo=self.manifest.name_of(path), problem=problem))
 
 
 def hashed(fingerprints, path, cancelled):

@@ -24,10 +24,13 @@ class Costs:
     ----------
     scans, photos : dict of Path to int
         Pixels of the files whose headers were read, of all scans of a file together.
+    unusable : dict of Path to str
+        Why files cannot be used, as far as their headers show it.
     """
 
     scans: dict[Path, int] = field(default_factory=dict)
     photos: dict[Path, int] = field(default_factory=dict)
+    unusable: dict[Path, str] = field(default_factory=dict)
 
     def pixels(self, scans):
         """Return how many pixels the scans in some files have."""

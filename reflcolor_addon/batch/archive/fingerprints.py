@@ -8,10 +8,13 @@ from functools import cache
 from pathlib import Path
 
 from ...errors import OutputError
+from ...files.locks import wait_for_lock
 from ...geodesic.kernel import library_file
 from ...report.report import fingerprint, versions
 
 _NAME = "hashes"
+# Another batch holds the file only while it writes it.
+_WAITS_S = 2.0
 
 
 class Fingerprints:
@@ -24,9 +27,7 @@ class Fingerprints:
 
     def __init__(self, folder):
         self._folder = folder
-        known = folder.recall("", _NAME) or {}
-        self._known = {path: entry for path, entry in known.items() if isinstance(entry, list) and len(entry) == 3}
-        self._changed, self._saved = False, 0.0
+        self._known, self._new, self._saved = self._recalled(), {}, 0.0
 
     def of(self, path, cancelled=None):
         """Return the hash of a file.
@@ -47,20 +48,26 @@ class Fingerprints:
         entry = self._known.get(key)
         if entry is None or entry[:2] != state:
             entry = [*(state or [0, 0]), fingerprint(path, cancelled)["sha256"]]
-            self._known[key] = entry
-            self._changed = True
+            self._known[key] = self._new[key] = entry
         return entry[2]
 
     def save(self, every_s=0.0):
         """Keep what is known for the next time, unless that was done less than so many seconds ago.
 
-        Where it cannot be kept, files are hashed again the next time.
+        What other batches on the same folder have kept meanwhile, as tasks of a render farm do, stays. Where nothing
+        can be kept, files are hashed again the next time.
         """
-        if self._changed and time.monotonic() - self._saved >= every_s:
+        if self._new and time.monotonic() - self._saved >= every_s:
             self._saved = time.monotonic()
-            with suppress(OutputError):
+            with suppress(OSError, OutputError), self._folder.state(f"{_NAME}.lock").open("ab") as file:
+                wait_for_lock(file, _WAITS_S)
+                self._known = self._known | self._recalled() | self._new
                 self._folder.remember("", _NAME, self._known)
-                self._changed = False
+                self._new = {}
+
+    def _recalled(self):
+        known = self._folder.recall("", _NAME) or {}
+        return {path: entry for path, entry in known.items() if isinstance(entry, list) and len(entry) == 3}
 
 
 @cache

@@ -65,7 +65,7 @@ class BatchFolder:
         """
         for folder in (self.root, self.root / REPORTS, self.root / "logs"):
             _make(folder)
-        for name in ("done", ITEMS, "locks", "matched", "looks"):
+        for name in ("done", ITEMS, "locks", "matched", "looks", "pairs"):
             _make(self.state(name))
 
     @contextmanager

@@ -1,13 +1,43 @@
 """The first stage of a batch: which of its photos are worth matching with which of its scans."""
 
+from dataclasses import dataclass
+
 from ...files.exif import moment_of
 from ...files.readers.e57_file import acquired_at
 from ...messages import Message
-from .candidates import are_few, candidates, ranked
+from ..paths import scan_files
+from .candidates import are_few, chosen, ranks
 from .workers import Task
 
 
-def photos_of_items(context, items, known_pairs):
+@dataclass(frozen=True, kw_only=True)
+class Looks:
+    """How likely each photo of a batch shows each of its scans, as far as looks tell.
+
+    Parameters
+    ----------
+    photos, hashes : dict of str to str
+        The name and the hash of each photo, by its path.
+    ranks : dict of str to list of (str, float)
+        See `candidates.ranks`.
+    few : bool
+        Whether there are so few pairs that all of them are matched.
+    unseen : set of str
+        Names of items at which no look could be taken.
+    """
+
+    photos: dict[str, str]
+    hashes: dict[str, str]
+    ranks: dict[str, list]
+    few: bool
+    unseen: set[str]
+
+    def by_item(self):
+        """Return the pairs that are worth matching, whatever is found for others: for each item its photos."""
+        return chosen(self.ranks, all_of_them=self.few)
+
+
+def looks_at_items(context, items, known_pairs):
     """Look at all photos of a batch for some of its items.
 
     Parameters
@@ -20,9 +50,7 @@ def photos_of_items(context, items, known_pairs):
 
     Returns
     -------
-    dict of str to list of str
-        For each item's name the paths of its photos: those that a person names, then what looks best. Where no look
-        could be taken, all of them: what is wrong is found out when the item is colorized.
+    Looks
     """
     scores, problems, unseen = {}, {}, set()
     photos = {str(path): context.manifest.name_of(path) for path in context.manifest.photos}
@@ -31,40 +59,26 @@ def photos_of_items(context, items, known_pairs):
         context.session.progress(number / len(photos), Message("Reading photos: {name}", name=name))
         hashes |= context.hashes([path])
 
-    def known(item, shows):
-        return [path for path, name in photos.items() if known_pairs.get((item.name, name)) is shows]
-
-    def finished(task, outcome):
-        if not outcome["done"]:
-            if outcome.get("may_pass") and tries[task.name] < context.options.tries:
-                tries[task.name] += 1
-                alone = outcome.get("alone", False)
-                tasks.append(task.again(0.0 if alone else context.options.wait_s, alone))
-                return
-            # What is wrong is told when the item is colorized.
-            unseen.add(task.name)
-            return
+    def looked(task, outcome):
         scores[task.name] = outcome["found"]["scores"]
         problems.update(outcome["found"]["problems"])
 
-    tasks = [_task(context, item, known(item, None), hashes) for item in items]
-    tasks = [task for task in tasks if task.request["photos"]]
-    tries = dict.fromkeys((task.name for task in tasks), 1)
-    context.work(tasks, finished, "Looked at photos for")
+    tasks = []
+    for item in items:
+        unknown = [path for path, name in photos.items() if known_pairs.get((item.name, name)) is None]
+        tasks += [_task(context, item, unknown, hashes)] if unknown else []
+    # What is wrong is told when the item is colorized.
+    context.work_again(tasks, looked, lambda task: unseen.add(task.name), "Looked at photos for")
     for path, problem in problems.items():
-        context.problems[path] = problem
-        context.session.warnings.append(
-            Message("{photo}: {problem}", photo=photos[path], problem=context.problems[path])
-        )
-    if are_few(sum(item.offered for item in context.manifest.items), len(photos)):
-        chosen = ranked(scores)
-    else:
-        moments = {path: moment_of(path) for path in photos}
-        chosen = candidates(scores, moments, {item.name: _scanned_at(item) for item in items})
-    return {
-        item.name: [*known(item, True), *(known(item, None) if item.name in unseen else chosen.get(item.name, []))]
-        for item in items
-    }
+        context.tell_problem(path, problem)
+    moments = {path: moment_of(path) for path in photos}
+    return Looks(
+        photos=photos,
+        hashes=hashes,
+        ranks=ranks(scores, moments, {item.name: _scanned_at(item) for item in items}),
+        few=are_few(sum(item.offered for item in context.manifest.items), len(photos)),
+        unseen=unseen,
+    )
 
 
 def _scanned_at(item):
@@ -74,16 +88,16 @@ def _scanned_at(item):
 
 
 def _task(context, item, photos, hashes):
-    scans = [str(path) for path in item.plan.scans]
+    files = [file for path in item.plan.scans for file in scan_files(path)]
     return Task(
         name=item.name,
         request={
             "do": "look",
             "folder": str(context.folder.root),
-            "scans": scans,
+            "scans": [str(path) for path in item.plan.scans],
             "reading": item.plan.reading.as_dict(),
             "photos": photos,
-            "hashes": context.hashes(scans) | {path: hashes[path] for path in photos},
+            "hashes": context.hashes(files) | {path: hashes[path] for path in photos},
         },
         memory=context.costs.memory(item.plan.scans),
         cost=1.0 + len(photos),

@@ -8,6 +8,7 @@ from ...files.readers import read_scans
 from ...matching.photo_image import PhotoImage
 from ...matching.registration.registration import ScanViews
 from ...messages import without_file
+from ..paths import scan_files
 from ..plan_document import reading_of
 from .fingerprints import digest_of, program_digest
 from .first_look import first_look
@@ -35,7 +36,7 @@ def look_at(request, *, progress, cancelled):
         each photo that cannot be read why.
     """
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
-    scans = [hashes[path] for path in request["scans"]]
+    scans = [hashes[str(file)] for path in request["scans"] for file in scan_files(Path(path))]
     # Files that could not be hashed cannot be told from one another: nothing is kept about them.
     key = digest_of([program_digest(), request["reading"], *scans]) if all(scans) else None
     known = (key and folder.recall(KIND, key)) or {}

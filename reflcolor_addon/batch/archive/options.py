@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 from .manifest import Item
 
-LOOK, COLOR, RENDERING = "look", "color", "render"
-STAGES = (LOOK, COLOR, RENDERING)
+LOOK, MATCH, COLOR, RENDERING = "look", "match", "color", "render"
+STAGES = (LOOK, MATCH, COLOR, RENDERING)
 DONE, FAILED, UNSHOWN, KNOWN = "done", "failed", "unshown", "known"
 ELSEWHERE, DUPLICATE, OPEN = "elsewhere", "duplicate", "open"
 """What became of an item: done now; not done; no photo shows it; done before; another batch has it; the same as another
@@ -63,8 +63,10 @@ class State:
         Why it failed.
     left_out : list of str
         Scans of it that no photo shows.
+    matched : list of dict
+        What was found for each of its scans and the photos of the whole batch; see `match_stage.Matched.told`.
     photos : list of dict
-        What was found for each of its scans and photos; see `worker`.
+        The same, with what was found while it was colorized; see `worker`.
     same_as : str
         The item that it is a duplicate of.
     """
@@ -73,5 +75,15 @@ class State:
     outcome: str = OPEN
     error: str = ""
     left_out: list[str] = field(default_factory=list)
+    matched: list[dict] = field(default_factory=list)
     photos: list[dict] = field(default_factory=list)
     same_as: str = ""
+
+    def add_photos(self, found):
+        """Keep what was found for photos while the item was colorized, beside what was found before."""
+        known = {(pair["scan"], pair["path"]): pair for pair in self.matched}
+        own = {(pair["scan"], pair["path"]): pair for pair in found}
+        self.photos = [
+            known.get(key, {}) | own.get(key, {}) | {"doubt": known.get(key, {}).get("doubt", "")}
+            for key in {**known, **own}
+        ]

@@ -10,6 +10,8 @@ from ...files.gate import contents
 
 COLUMNS = ("scan", "photo", "shows", "evidence", "note")
 YES, NO, UNTESTED, UNTRIED = "yes", "no", "cannot be tested", "not tried"
+CONTRADICTION = "contradiction"
+"""What the column ``shows`` holds; a contradiction is a photo that was verified, but shows another place."""
 _MOST_BYTES = 1 << 28
 
 

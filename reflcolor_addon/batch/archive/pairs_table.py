@@ -3,14 +3,20 @@
 from ...messages import Message
 from ...report.archive_entries import ITEMS
 from .options import COLOR, FAILED
-from .pairs import NO, UNTESTED, UNTRIED, YES, write_pairs
+from .pairs import CONTRADICTION, NO, UNTESTED, UNTRIED, YES, write_pairs
 
 # A spreadsheet takes a million rows; of a larger archive only the pairs that were tried are listed.
 _MOST_ROWS = 100_000
 
 
-def write_table(context):
+def write_table(context, matched):
     """Write the table of the items that are offered the photos of the whole batch, as far as is known by now.
+
+    Parameters
+    ----------
+    context : Context
+    matched : Matched
+
 
     Raises
     ------
@@ -25,12 +31,11 @@ def write_table(context):
     with_untried, rows, left_out = len(items) * len(photos) <= _MOST_ROWS, [], 0
     for item in items:
         record = context.done.recall(item.name, COLOR)
-        best = _best(record)
+        best = _best([*((record or {}).get("photos") or []), *matched.told(item.name)])
         for path, photo in photos.items():
             pair = best.get(path)
             if pair is not None:
-                shows = YES if pair["verified"] else NO if pair["tested"] else UNTESTED
-                rows.append((item.name, photo, shows, f"{pair['evidence']:.2f}", pair["note"]))
+                rows.append((item.name, photo, *_said(pair, matched.verdicts.get(path), item.name)))
             elif with_untried:
                 rows.append((item.name, photo, UNTRIED, "", _why_untried(context, item, path, record)))
             else:
@@ -46,10 +51,19 @@ def write_table(context):
         )
 
 
-def _best(record):
+def _said(pair, verdict, name):
+    """Whether a photo shows an item, the evidence, and a note."""
+    shows = YES if pair["verified"] else NO if pair["tested"] else UNTESTED
+    if verdict is not None and pair["verified"] and name in verdict.refused:
+        shows = CONTRADICTION
+    note = pair["note"] if verdict is None or not verdict.doubt(name) else f"{pair['note']}; {verdict.doubt(name)}"
+    return shows, f"{pair['evidence']:.2f}", note
+
+
+def _best(found):
     """What was found for each photo, by its path; of several scans of an item the one that speaks most for it."""
     best = {}
-    for pair in (record or {}).get("photos") or []:
+    for pair in found:
         known = best.get(pair["path"])
         if known is None or (pair["verified"], pair["evidence"]) > (known["verified"], known["evidence"]):
             best[pair["path"]] = pair

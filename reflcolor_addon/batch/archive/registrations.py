@@ -2,6 +2,7 @@
 
 from ...files.readers.options import AS_IT_IS
 from ...matching.registration.stored import as_document, from_document
+from ..paths import scan_files
 from .fingerprints import digest_of, program_digest
 
 KIND = "matched"
@@ -14,7 +15,7 @@ class Registrations:
     ----------
     folder : BatchFolder
     hashes : dict of str to str
-        The hash of every scan's and photo's file, by its path as text.
+        The hash of every file of the scans and of every photo, by its path as text.
     reading : ReadOptions
         How the scans are read.
     """
@@ -24,8 +25,8 @@ class Registrations:
 
     def __call__(self, job, photo, register):
         """Return the `Registration` of a photo on a scan; ``register()`` finds it where it is not known yet."""
-        own, other = self._hashes[str(job.path)], self._hashes[str(photo)]
-        if not (own and other):
+        own, other = [self._hashes[str(file)] for file in scan_files(job.path)], self._hashes[str(photo)]
+        if not (all(own) and other):
             # Files that could not be hashed cannot be told from one another.
             return register()
         key = digest_of([program_digest(), own, self._reading, job.index, other])

@@ -11,11 +11,12 @@ from .context import Context, hashed
 from .done import Done
 from .duplicates import duplicates
 from .fingerprints import Fingerprints
-from .look_stage import photos_of_items
-from .options import COLOR, DUPLICATE, FAILED, KNOWN, LOOK, RENDERING, STAGES, State
+from .look_stage import looks_at_items
+from .match_stage import Matched, match_items
+from .options import COLOR, DUPLICATE, FAILED, KNOWN, LOOK, MATCH, RENDERING, STAGES, State
 from .pairs_table import write_table
 from .render_stage import render_items
-from .stage import remember_item
+from .stage import fail, remember_item
 from .workers import Workers
 
 
@@ -80,26 +81,45 @@ def run_batch(manifest, options, costs, known_pairs, session):
 
 def _work(context, states, known_pairs):
     """Do the stages that are asked for."""
-    stages, photos = context.options.stages, {}
+    stages, matched = context.options.stages, Matched()
+    own = []
     for state in states:
-        if state.item.name in context.same.items:
+        if (problem := _unusable(context, state.item)) is not None:
+            if COLOR in stages:
+                fail(context, state, problem)
+        elif state.item.name in context.same.items:
             state.outcome, state.same_as = DUPLICATE, context.same.items[state.item.name]
             remember_item(context, state)
-    own = [state for state in states if state.outcome != DUPLICATE]
-    if LOOK in stages or COLOR in stages:
-        # Which photos suit an item best is known only when all items have been compared.
-        items = context.manifest.items if COLOR in stages else [state.item for state in own]
-        items = [item for item in items if item.offered and item.name not in context.same.items]
-        try:
-            photos = photos_of_items(context, items, known_pairs)
-        except Cancelled:
-            if COLOR in stages:
-                write_table(context)
-            raise
+        else:
+            own.append(state)
+    if LOOK in stages or MATCH in stages or COLOR in stages:
+        _find_photos(context, own, known_pairs, matched)
     if COLOR in stages:
-        colorize_items(context, own, photos)
+        colorize_items(context, own, matched)
     if RENDERING in stages:
         render_items(context, own)
+
+
+def _find_photos(context, states, known_pairs, matched):
+    """Find out which photos show which items, as far as the stages that are asked for need it."""
+    stages, own = context.options.stages, [state.item for state in states]
+    # Which photos suit an item best is known only when all items have been compared.
+    items = own if stages == (LOOK,) else context.manifest.items
+    items = [item for item in items if item.offered and item.name not in context.same.items]
+    items = [item for item in items if _unusable(context, item) is None]
+    try:
+        looks = looks_at_items(context, items, known_pairs)
+        if MATCH in stages or COLOR in stages:
+            match_items(context, items, {item.name for item in own}, looks, known_pairs, matched)
+    except Cancelled:
+        if COLOR in stages:
+            write_table(context, matched)
+        raise
+
+
+def _unusable(context, item):
+    """Why an item cannot be worked on, as far as the headers of its scans show it; None where it can."""
+    return next((context.costs.unusable[path] for path in item.plan.scans if path in context.costs.unusable), None)
 
 
 def _remember_scans(context):

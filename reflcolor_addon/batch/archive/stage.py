@@ -57,7 +57,9 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
         nonlocal count
         piece = states[task.name]
         state = piece.state
+        state.add_photos(outcome.get("photos") or state.photos)
         if outcome["done"]:
+            outcome = outcome | {"photos": state.photos}
             outcome = _kept(context, stage, piece, outcome, done)
         if not outcome["done"] and outcome.get("may_pass") and piece.tries < options.tries:
             piece.tries += 1
@@ -70,7 +72,6 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             return False
         count += 1
         state.left_out = outcome.get("left_out") or state.left_out
-        state.photos = outcome.get("photos") or state.photos
         if outcome["done"]:
             state.outcome = DONE if outcome["written"] or not state.left_out else UNSHOWN
         elif outcome.get("cancelled"):
@@ -78,7 +79,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
         else:
             state.outcome, state.error = FAILED, outcome["error"]
         remember_item(context, state)
-        _write_log(task, outcome)
+        _write_log(task.log, outcome, _matched(context, state))
         context.session.say(_line(state, outcome, count, whole))
         piece.claim.close()
         _require_folder(context)
@@ -103,7 +104,8 @@ def _is_known(context, stage, state, key, since=None):
     """Whether an item is already done; with ``since``, whether another batch has done it since then."""
     record = context.done.recall(state.item.name, stage, key, since)
     if record is not None:
-        state.outcome, state.left_out, state.photos = KNOWN, record["left_out"] or [], record["photos"] or []
+        state.outcome, state.left_out = KNOWN, record["left_out"] or []
+        state.add_photos(record["photos"] or [])
     return record is not None
 
 
@@ -138,10 +140,18 @@ def remember_item(context, state):
         context.session.warnings.append(error.message)
 
 
+def fail(context, state, problem):
+    """Record that an item fails before anything is done for it, and say so."""
+    state.outcome, state.error = FAILED, str(problem)
+    remember_item(context, state)
+    _write_log(context.folder.log(state.item.name), {"done": False, "error": state.error}, (), mode="w")
+    context.session.say(Message("{name}: failed: {problem}", name=state.item.name, problem=_bare(state.error)))
+
+
 def _line(state, outcome, count, whole):
     said = {
         DONE: Message("done in {seconds:.0f} s", seconds=outcome.get("seconds", 0)),
-        UNSHOWN: _unshown(len({pair["path"] for pair in outcome.get("photos") or ()})),
+        UNSHOWN: _unshown(len({pair["path"] for pair in state.photos})),
         FAILED: Message("failed: {problem}", problem=_bare(state.error)),
         OPEN: Message("interrupted"),
     }[state.outcome]
@@ -161,13 +171,21 @@ def _bare(text):
     return text.rstrip(".")
 
 
-def _write_log(task, outcome):
+def _matched(context, state):
+    """What was found before the item was colorized, one line for each photo, and what may help."""
+    lines = [f"{context.manifest.name_of(pair['path'])}: {pair['note']}" for pair in state.matched]
+    if state.outcome == UNSHOWN and state.matched:
+        lines.append("no photo shows it for certain; if you know one that does, pick four to six pairs by hand")
+    return lines
+
+
+def _write_log(path, outcome, before, mode="a"):
     """Append the messages about an item to its log; a log that cannot be written does not stop the batch."""
-    lines = [*outcome.get("lines", []), *(f"warning: {line}" for line in outcome.get("warnings", []))]
+    lines = [*before, *outcome.get("lines", []), *(f"warning: {line}" for line in outcome.get("warnings", []))]
     if not outcome["done"]:
         lines.append(f"error: {outcome['error']}")
     try:
-        with task.log.open("a", encoding="utf-8", errors="backslashreplace") as file:
+        with path.open(mode, encoding="utf-8", errors="backslashreplace") as file:
             file.writelines(f"{line}\n" for line in lines)
     except OSError:
         return

@@ -19,6 +19,7 @@ from ..plan_document import from_document
 from ..session import Session
 from .folder import BatchFolder
 from .looks import look_at
+from .matches import match_at
 from .passing import may_pass
 from .registrations import Registrations
 
@@ -89,15 +90,8 @@ class _Worker:
 
     def run(self, request):
         """Do one item of a batch."""
-        limit_threads(request["threads"])
         lines, plan = [], from_document(request["plan"])
-        session = Session(
-            say=lambda line: lines.append(str(line)),
-            show=self.show,
-            cancelled=self.cancelled,
-            blender=self._outer.blender,
-            registrations=Registrations(BatchFolder(Path(request["folder"])), request["hashes"], plan.reading),
-        )
+        session = self._session(request, plan, lines)
         outcome = self._outcome(lambda: run_plan(plan, session))
         photos = [
             {"scan": label, "path": str(path), "verified": photo.verified, "tested": photo.tested}
@@ -112,6 +106,22 @@ class _Worker:
             "left_out": session.left_out,
             "written": [str(path) for path in session.written],
         }
+
+    def match(self, request):
+        """Match photos with the scans of an item."""
+        lines, plan, found = [], from_document(request["plan"]), {}
+        session = self._session(request, plan, lines)
+        return self._outcome(lambda: found.update(match_at(plan, session))) | {"found": found}
+
+    def _session(self, request, plan, lines):
+        limit_threads(request["threads"])
+        return Session(
+            say=lambda line: lines.append(str(line)),
+            show=self.show,
+            cancelled=self.cancelled,
+            blender=self._outer.blender,
+            registrations=Registrations(BatchFolder(Path(request["folder"])), request["hashes"], plan.reading),
+        )
 
     def look(self, request):
         """Take a first look at what photos may show a scan."""
@@ -138,7 +148,7 @@ class _Worker:
         return outcome | {"seconds": round(time.perf_counter() - start, 3), "peak_bytes": _peak_bytes()}
 
 
-_WORK = {"run": _Worker.run, "look": _Worker.look}
+_WORK = {"run": _Worker.run, "look": _Worker.look, "match": _Worker.match}
 
 
 def _peak_bytes():

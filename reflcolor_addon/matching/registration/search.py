@@ -95,9 +95,10 @@ class Search:
         guesses = _unlike_ones(self._everywhere(places, _COARSER, _ASIDE_FOCALS, _ASIDE_PITCHES, 2, step))
         return _unlike_ones(self._around(guesses[:_LOOKED_AT], (0.93, 1.0, 1.07), (0.0,), 1, step))
 
-    def roughly(self, focals, coarser, step=lambda: None):
-        """Return `Guess`es of a level photo taken from about the scanner's place, on coarser maps, best first."""
-        return _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], coarser, focals, (0.0,), 2, step))
+    def likeness(self, step=lambda: None):
+        """Return the best score of all directions from the scanner's place; 0 where none can be tried."""
+        guesses = self._everywhere([(0.0, 0.0, 0.0)], 1, _FOCALS, _PITCHES, 1, step)
+        return max((guess.score for guess in guesses), default=0.0)
 
     def _everywhere(self, places, coarser, focals, pitches, count, step):
         """The best guesses from each place for each focal length and pitch."""

@@ -1,0 +1,211 @@
+"""The second stage of a batch: photos are matched with scans, and it is decided which they show."""
+
+from collections import defaultdict
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from ..paths import scan_files
+from ..plan_document import as_document
+from .claims import Claim, Verdict, verdict
+from .fingerprints import digest_of, program_digest
+from .tries import Tries
+from .workers import Task
+
+KIND = "pairs"
+
+
+@dataclass(kw_only=True)
+class Matched:
+    """What was found of the items that are offered the photos of the whole batch.
+
+    Parameters
+    ----------
+    pairs : dict of str to dict of str to list of dict
+        For each item and the path of each photo that was tried on it what `matches.match_at` found.
+    verdicts : dict of str to Verdict
+        For the path of each photo that is verified anywhere which items it shows.
+    by_likeness : dict of str to list of str
+        For items that could not be matched here the photos that look best.
+    """
+
+    pairs: dict[str, dict[str, list]] = field(default_factory=lambda: defaultdict(dict))
+    verdicts: dict[str, Verdict] = field(default_factory=dict)
+    by_likeness: dict[str, list[str]] = field(default_factory=dict)
+
+    def photos(self, item):
+        """Return the photos that an item is colored from."""
+        if item.name in self.by_likeness:
+            return self.by_likeness[item.name]
+        found = self.pairs.get(item.name, {})
+        shown = [path for path in found if item.name in self.verdicts.get(path, Verdict()).shown]
+        if item.plan.settings.guess:
+            # Guesses take their colors from photos that look like the scan, too.
+            shown += [path for path in found if path not in self.verdicts]
+        return shown
+
+    def told(self, name):
+        """Return what was found for an item, for its record: one dictionary for each scan and photo."""
+        found = []
+        for path, pairs in self.pairs.get(name, {}).items():
+            doubt = str(self.verdicts.get(path, Verdict()).doubt(name))
+            kept = ("scan", "verified", "tested", "evidence", "note")
+            found += [{key: pair[key] for key in kept} | {"path": path, "doubt": doubt} for pair in pairs]
+        return found
+
+
+def match_items(context, items, own, looks, known_pairs, matched):
+    """Match photos with items, the likeliest pairs first.
+
+    Parameters
+    ----------
+    context : Context
+    items : list of Item
+        All that are offered the photos of the whole batch.
+    own : set of str
+        The names of those to work on; what is known already counts for the others.
+    looks : Looks
+        From `look_stage.looks_at_items`.
+    known_pairs : dict of (str, str) to bool
+        As there.
+    matched : Matched
+        What is found is added to it, little by little.
+    """
+    rounds = _Rounds(context, items, own, looks, known_pairs, matched)
+    rounds.match(rounds.given())
+    if own >= {item.name for item in items}:
+        tries = Tries(looks.ranks, looks.few)
+        while pairs := tries.next(rounds.claims(), rounds.beside()):
+            rounds.match(pairs)
+    else:
+        # A part of a batch does not wait for what the others find.
+        rounds.match(looks.by_item())
+    rounds.decide()
+
+
+class _Rounds:
+    def __init__(self, context, items, own, looks, known_pairs, matched):
+        self._context, self._looks = context, looks
+        self._items = {item.name: item for item in items}
+        self._own = own
+        names = {name: path for path, name in looks.photos.items()}
+        self._said = {
+            (item, names[photo]): shows
+            for (item, photo), shows in known_pairs.items()
+            if item in self._items and photo in names
+        }
+        self._found = matched
+        self._number = 0
+
+    def given(self):
+        """The pairs that a person names, and what no look could be taken of."""
+        pairs = defaultdict(list)
+        for (name, path), shows in self._said.items():
+            if shows:
+                pairs[name].append(path)
+        for name in self._looks.unseen:
+            self._found.by_likeness[name] = list(self._looks.photos)
+        return pairs
+
+    def match(self, pairs):
+        """Match pairs that are not known yet, and keep what was found."""
+        tasks, keys = [], {}
+        for name, paths in pairs.items():
+            item = self._items[name]
+            paths = [path for path in paths if path not in self._found.pairs[name] and self._may_show(name, path)]
+            if item.plan.settings.matching == "paper":
+                self._found.by_likeness.setdefault(name, []).extend(paths)
+                continue
+            keys[name] = self._key(item)
+            known = self._recalled(keys[name])
+            hashes = self._looks.hashes
+            self._found.pairs[name] |= {path: known[hashes[path]] for path in paths if hashes[path] in known}
+            missing = [path for path in paths if path not in self._found.pairs[name]]
+            if missing and name in self._own:
+                tasks.append(self._task(item, missing))
+        if not tasks:
+            return
+        self._number += 1
+
+        def done(task, outcome):
+            self._keep(task.name, keys[task.name], outcome["found"])
+
+        def failed(task):
+            # What is wrong is told when the item is colorized.
+            self._found.by_likeness[task.name] = task.request["plan"]["photos"]
+
+        self._context.work_again(tasks, done, failed, f"Matching photos (round {self._number}), scan")
+
+    def _may_show(self, name, path):
+        return self._said.get((name, path)) is not False and path not in self._context.problems
+
+    def _keep(self, name, key, found):
+        hashes, known = self._looks.hashes, self._recalled(key)
+        for path, problem in found["problems"].items():
+            self._context.tell_problem(path, problem)
+        self._found.pairs[name] |= found["pairs"]
+        if key:
+            known |= {hashes[path]: pairs for path, pairs in found["pairs"].items() if hashes[path]}
+            self._context.folder.remember(KIND, key, known)
+
+    def _recalled(self, key):
+        return (key and self._context.folder.recall(KIND, key)) or {}
+
+    def _key(self, item):
+        hashes = self._context.hashes(file for path in item.plan.scans for file in scan_files(path))
+        if not all(hashes.values()):
+            return None
+        plan = item.plan
+        return digest_of([program_digest(), plan.reading.as_dict(), plan.wanted, plan.name, list(hashes.values())])
+
+    def _task(self, item, paths):
+        plan = replace(
+            item.plan,
+            photos=tuple(map(Path, paths)),
+            outputs=(),
+            hand=None,
+            faces=None,
+            texture=None,
+            skip_unshown=True,
+        )
+        hashes = self._context.hashes(file for path in plan.scans for file in scan_files(path))
+        hashes |= {path: self._looks.hashes[path] for path in paths}
+        largest = max(plan.photos, key=lambda path: self._context.costs.photos.get(path, 0))
+        return Task(
+            name=item.name,
+            request={
+                "do": "match",
+                "plan": as_document(plan),
+                "folder": str(self._context.folder.root),
+                "hashes": hashes,
+            },
+            memory=self._context.costs.memory(plan.scans, (largest,)),
+            cost=self._context.costs.seconds(plan.scans, len(paths)),
+            log=self._context.folder.log(f"{item.name} match"),
+        )
+
+    def claims(self):
+        """What was found so far, for each photo."""
+        claims = defaultdict(list)
+        for name, found in self._found.pairs.items():
+            for path, pairs in found.items():
+                claims[path].append(Claim.of(name, pairs, self._said.get((name, path), False)))
+        return claims
+
+    def beside(self):
+        """For each item those that photos say show the same place."""
+        beside = defaultdict(set)
+        for claims in self.claims().values():
+            shown = set(verdict(claims).shown)
+            for name in shown:
+                beside[name] |= shown - {name}
+        return beside
+
+    def decide(self):
+        """Find out what each photo shows; say where one contradicts itself."""
+        for path, claims in sorted(self.claims().items()):
+            found = verdict(claims)
+            if found.shown or found.refused:
+                self._found.verdicts[path] = found
+            warning = found.warning(self._looks.photos[path])
+            if warning is not None and self._own.intersection(found.shown + found.refused):
+                self._context.session.warnings.append(warning)
