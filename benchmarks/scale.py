@@ -20,7 +20,7 @@ import numpy as np
 from benchmarks.rooms import Room
 from benchmarks.run_apart import measured
 from reflcolor_addon import Scan, Seeds
-from reflcolor_addon.batch.archive.candidates import chosen, ranks
+from reflcolor_addon.batch.archive.candidates import for_second_looks, ranks
 from reflcolor_addon.batch.archive.check import check_manifest
 from reflcolor_addon.batch.archive.check_files import check_files
 from reflcolor_addon.batch.archive.fingerprints import Fingerprints
@@ -102,7 +102,7 @@ def _measure(root, count):
     _timed("writing down the hashes", hashes.save)
     photos = [f"photo_{number}.jpg" for number in range(_PHOTOS)]
     scores = {item.name: dict(zip(photos, np.random.random(_PHOTOS).tolist(), strict=True)) for item in manifest.items}
-    _timed(f"choosing pairs of {_PHOTOS} photos with all scans", lambda: chosen(ranks(scores)))
+    _timed(f"choosing pairs of {_PHOTOS} photos with all scans", lambda: for_second_looks(ranks(scores)))
     scores.clear()
     session = SimpleNamespace(progress=lambda *_: None, warnings=[])
     _timed("the report page", lambda: write_page(manifest.folder.root, session))

@@ -96,7 +96,11 @@ def test_a_scan_and_a_photo_that_cannot_be_used_are_named_before_anything_is_beg
     assert found[0].startswith("line 10: hall_1.ptx: line 1: expected the number of columns")
     assert found[1].startswith("line 4: a.jpg: ") and "damaged" in found[1]
     assert found[2].startswith("line 4: b.png: is not an image that can be read")
-    assert found[3:] == ["3 things are wrong, see above"]
+    assert found[3:] == [
+        "3 things are wrong, see above; mend these files or take them out, or go on without them by --keep-going"
+    ]
+    status, out, _ = batch("--check", "--keep-going")
+    assert status == 2 and "scans: 2, about" in out
     status, out, err = batch()
     assert status == 2 and "go on without them by --keep-going" in err
     assert not (archive / "colored").exists()

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import json
 import os
 import signal
 import subprocess
@@ -16,6 +17,7 @@ from command_line import process_line, run_process
 
 from reflcolor_addon.batch.archive import color_stage
 from reflcolor_addon.batch.archive.done import Done
+from reflcolor_addon.batch.archive.fingerprints import Fingerprints
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.registrations import Registrations
 from reflcolor_addon.batch.archive.workers import Workers
@@ -235,6 +237,19 @@ def test_a_result_that_is_gone_before_it_is_recorded_costs_one_scan_and_no_other
     status, out, err = batch("--keep-going")
     assert status == 1 and "2 done" in out and "1 failed" in out
     assert "hall_1" in err and "Traceback" not in err
+
+
+def test_batches_on_one_folder_keep_each_others_hashes(tmp_path):
+    folder = BatchFolder(tmp_path)
+    folder.make()
+    for name in "abc":
+        (tmp_path / name).write_text(name)
+    first, second = Fingerprints(folder), Fingerprints(folder)
+    for hashes, name in ((first, "a"), (second, "b"), (first, "c")):
+        hashes.of(tmp_path / name)
+        hashes.save()
+    kept = json.loads(folder.state("hashes.json").read_text(encoding="utf-8"))
+    assert sorted(Path(path).name for path in kept) == ["a", "b", "c"]
 
 
 def test_files_that_cannot_be_hashed_share_no_registration(tmp_path):

@@ -3,16 +3,30 @@
 import csv
 import json
 import sys
+from collections import defaultdict
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from archives import HEAD, make_archive, table_of
+from small_scans import random_scan
+from test_photo_claims import CELLAR, HALL
 
+from reflcolor_addon.batch.archive.claims import Claim, verdict
+from reflcolor_addon.batch.archive.done import Done
+from reflcolor_addon.batch.archive.duplicates import Duplicates
+from reflcolor_addon.batch.archive.folder import BatchFolder
+from reflcolor_addon.batch.archive.manifest_file import load_manifest
+from reflcolor_addon.batch.archive.match_stage import Matched
 from reflcolor_addon.batch.archive.pairs import COLUMNS, read_pairs, write_pairs
+from reflcolor_addon.batch.archive.pairs_table import write_table
+from reflcolor_addon.batch.session import Session
 from reflcolor_addon.cli.main import main
 from reflcolor_addon.errors import UsageError
 from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.writers import write_ptx
 
 
 def test_the_table_of_pairs_survives_a_spreadsheet(tmp_path):
@@ -56,6 +70,72 @@ def test_a_scan_without_colors_has_its_reflectance_and_the_photos_that_were_trie
     assert page.count("four to six pairs") == 1
     log = (archive / "colored" / "logs" / "hall_0.log").read_text(encoding="utf-8")
     assert log.count("four to six pairs") == 1
+
+
+def test_a_scan_that_failed_after_it_was_read_and_a_duplicate_have_a_picture(archive, batch):
+    flat = random_scan(shape=(12, 16))
+    write_ptx(replace(flat, reflectance=np.full_like(flat.reflectance, 0.5)), archive / "hall_0.ptx")
+    (archive / "hall_2.ptx").write_bytes((archive / "hall_1.ptx").read_bytes())
+    seeds = '[[scan]]\nfile = "hall_{}.ptx"\nseeds = "hall_1.seeds.json"\n'
+    (archive / "batch.toml").write_text(HEAD + "".join(map(seeds.format, range(3))), encoding="utf-8")
+    assert batch("--keep-going")[0] == 1
+    rows = table_of(archive)
+    assert [rows[f"hall_{number}"]["state"] for number in range(3)] == ["failed", "done", "duplicate"]
+    page = (archive / "colored" / "report.html").read_text(encoding="utf-8")
+    assert page.count("data:image/jpeg;base64,") == 3
+    assert 'aria-label="hall_0, after"' not in page and 'aria-label="hall_2, after"' in page
+
+
+@pytest.fixture
+def contradiction(archive):
+    """A batch whose one photo was verified on two scans of different places."""
+    depths = {"hall_0": HALL, "hall_1": CELLAR}
+    found = {"verified": True, "tested": True, "evidence": 2.0, "note": "verified: 9 of 10 parts", "camera": None}
+    path = str(archive / "a.png")
+    matched = Matched(pairs=defaultdict(dict))
+    claims = []
+    for name, strength in (("hall_0", 60.0), ("hall_1", 20.0)):
+        pair = found | {"scan": name, "strength": strength, "depths": depths[name]}
+        matched.pairs[name][path] = [pair]
+        claims.append(Claim.of(name, [pair]))
+    matched.verdicts[path] = verdict(claims)
+    return matched
+
+
+def test_a_photo_of_two_places_is_a_contradiction_in_the_table_of_pairs(archive, batch, contradiction):
+    write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
+    manifest = load_manifest(archive / "batch.toml", pytest.fail)
+    manifest.folder.make()
+    context = SimpleNamespace(
+        manifest=manifest,
+        folder=manifest.folder,
+        same=Duplicates(),
+        done=Done(manifest.folder, None),
+        problems={},
+        session=Session(),
+    )
+    write_table(context, contradiction)
+    with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row["scan"]: row for row in csv.DictReader(file)}
+    assert (rows["hall_0"]["shows"], rows["hall_1"]["shows"]) == ("yes", "contradiction")
+    assert "clearly better" in rows["hall_0"]["note"] and "it shows hall_0" in rows["hall_1"]["note"]
+    # Fed back as it is, it decides nothing that was not decided before.
+    assert read_pairs(archive / "colored" / "pairs.csv") == {("hall_0", "a.png"): True}
+
+
+def test_scans_whose_photo_seems_to_show_two_places_are_warned_of(archive, batch, contradiction):
+    batch()
+    folder = BatchFolder(archive / "colored")
+    for name in ("hall_0", "hall_1"):
+        photos = [pair | {"photo": "a.png"} for pair in contradiction.told(name)]
+        folder.remember("items", name, {"outcome": "done", "error": "", "left_out": [], "photos": photos})
+    assert main(["report", "colored"]) == 0
+    rows = table_of(archive)
+    assert rows["hall_2"]["warnings"] == "0"
+    assert rows["hall_0"]["warnings"] == rows["hall_1"]["warnings"] == "1"
+    assert "a.png: gives no colors here: it shows hall_0" in rows["hall_1"]["note"]
+    assert "Photos that seem to show several places" in (archive / "colored" / "report.html").read_text("utf-8")
 
 
 def test_a_name_that_is_markup_is_shown_as_text(tmp_path, monkeypatch):

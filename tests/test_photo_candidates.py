@@ -9,7 +9,15 @@ from e57_samples import write_e57
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reflcolor_addon.batch.archive.candidates import ALL_PAIRS, MOST_SCANS, _Neighbors, are_few, chosen, ranks
+from reflcolor_addon.batch.archive.candidates import (
+    ALL_PAIRS,
+    _Neighbors,
+    all_of_them,
+    are_few,
+    for_second_looks,
+    ranks,
+    telling,
+)
 from reflcolor_addon.files.exif import Moment, moment_of
 from reflcolor_addon.files.readers.e57_file import acquired_at
 
@@ -77,15 +85,28 @@ def test_a_scan_tells_when_it_was_taken(tmp_path):
 
 
 def candidates(*given):
-    """For each item its photos."""
-    found = chosen(ranks(*given))
-    return {name: found.get(name, []) for name in given[0]}
+    """For each item the photos that it is among the likelier ones for."""
+    found = {photo: dict(own) for photo, own in ranks(*given).items()}
+    return {name: [photo for photo, own in found.items() if own[name] >= 0.4] for name in given[0]}
 
 
-def test_a_photo_goes_to_the_scans_that_it_looks_most_like():
-    scores = {f"scan {number}": {"a": 10.0 + number, "b": 1.0, "c": 1.0} for number in range(MOST_SCANS + 2)}
-    chosen = candidates(scores)
-    assert [name for name, photos in chosen.items() if "a" in photos] == list(scores)[2:]
+def test_scans_are_ranked_by_how_much_a_photo_looks_like_them_and_the_likeliest_are_looked_at_again():
+    scores = {f"scan {number:02}": {"a": 10.0 + number, "b": 1.0, "c": 1.0} for number in range(28)}
+    ranked = ranks(scores)
+    assert [name for name, _ in ranked["a"]] == list(scores)[::-1]
+    again = for_second_looks(ranked)
+    assert [name for name in scores if "a" in again.get(name, ())] == list(scores)[8:]
+
+
+def test_second_looks_can_be_compared_between_scans():
+    scores = {"detailed": {"a": 50.0, "b": 52.0}, "plain": {"a": 40.0, "b": 9.0}}
+    assert [name for name, _ in ranks(scores, comparable=True)["a"]] == ["detailed", "plain"]
+
+
+def test_a_part_of_an_archive_takes_photos_that_its_own_looks_speak_for():
+    first = {"a": [(f"scan {number}", 1.0 - 0.01 * number) for number in range(6)]}
+    strengths = {"scan 0": {"a": 1.0}, "scan 3": {"a": 40.0}, "scan 4": {"a": 2.0}}
+    assert telling(first, strengths) == {"scan 0": ["a"], "scan 3": ["a"]}
 
 
 def test_a_scan_with_much_detail_does_not_take_all_photos():
@@ -99,7 +120,7 @@ def test_in_a_small_archive_every_photo_is_tried_what_looks_best_first():
     assert are_few(1, ALL_PAIRS)
     assert not are_few(30, 40)
     scores = {"hall": {"a": 1.0, "b": 9.0, "c": 0.0}, "cellar": {"a": 9.0, "b": 0.0, "c": 0.0}}
-    assert chosen(ranks(scores), all_of_them=True) == {"hall": ["b", "a", "c"], "cellar": ["a", "b", "c"]}
+    assert all_of_them(ranks(scores)) == {"hall": ["b", "a", "c"], "cellar": ["a", "b", "c"]}
 
 
 # By its looks alone, "b" goes to the cellar.

@@ -54,10 +54,11 @@ def run_plan(plan, session):
         given = check_plan(plan, session.blender)
     session.warnings += given.warnings
     session.span = _READING
-    jobs = read_jobs(plan, given, session, times)
-    for job in jobs:
-        session.warnings += job.scan.warnings
-    with pictured(plan, list(jobs)):
+    opened = []
+    with pictured(plan, opened):
+        jobs = read_jobs(plan, given, session, times, opened)
+        for job in jobs:
+            session.warnings += job.scan.warnings
         _run_jobs(plan, jobs, times, session)
 
 

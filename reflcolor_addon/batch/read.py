@@ -15,7 +15,7 @@ from .session import timed
 _LONGEST_LABEL = 60
 
 
-def read_jobs(plan, given, session, times):
+def read_jobs(plan, given, session, times, opened=None):
     """Read the scans of a plan, and the seeds that each has of its own.
 
     Parameters
@@ -26,6 +26,8 @@ def read_jobs(plan, given, session, times):
     session : Session
     times : dict
         Seconds are added to it.
+    opened : list, optional
+        Gets the jobs as soon as their scans are read, before anything else can be wrong.
 
     Returns
     -------
@@ -34,6 +36,8 @@ def read_jobs(plan, given, session, times):
     """
     with timed(times, "read"):
         jobs = _scan_jobs(plan, session)
+    if opened is not None:
+        opened += jobs
     check_placeholder(plan, len(jobs))
     session.left_out += [job.label for job in jobs if job.label in plan.left_out]
     jobs = [job for job in jobs if job.label not in plan.left_out]

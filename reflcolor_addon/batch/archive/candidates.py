@@ -8,9 +8,11 @@ from ...files.exif import Moment
 
 # Up to so many pairs of a scan and a photo, all are matched: first looks save little there, and may miss what fits.
 ALL_PAIRS = 300
-# How many scans each photo is matched with at most where nothing is known of others, and how much less likely they may
-# be than the likeliest.
-MOST_SCANS, LEAST_SHARE = 6, 0.4
+# How many scans each photo gets a second look at, the likeliest at the first.
+_SECOND_LOOKS = 20
+# Where nothing is known of other scans, a photo is matched with the likeliest at the first look, and with those for
+# which at least so much speaks at the second.
+_LIKELIEST, _TELLING = 2, 15.0
 # Photos taken within this many seconds, or meters, of each other probably show the same thing.
 _TOGETHER_S, _TOGETHER_M = 60.0, 10.0
 # Cameras seldom store their time zone, so times may differ by this much; a scan from another day is less likely.
@@ -18,7 +20,7 @@ _SAME_DAY_S, _ANOTHER_DAY = 14 * 3600.0, 0.5
 _METERS_PER_DEGREE = 111_195.0
 
 
-def ranks(scores, moments=None, scanned=None):
+def ranks(scores, moments=None, scanned=None, comparable=False):
     """Put the scans in order that each photo may show.
 
     Parameters
@@ -29,6 +31,8 @@ def ranks(scores, moments=None, scanned=None):
         When and where photos were taken, by their paths.
     scanned : dict of str to float, optional
         When items were scanned, in seconds since 1970, by their names.
+    comparable : bool
+        Whether scores of different items can be compared, as those of second looks.
 
     Returns
     -------
@@ -37,11 +41,11 @@ def ranks(scores, moments=None, scanned=None):
     """
     scanned = scanned or {}
     # A scan with much detail gets higher scores with every photo; what counts is how much a photo stands out.
-    usual = {name: max(median_high(own.values()), 1e-9) if own else 1.0 for name, own in scores.items()}
     shares = {}
     for name, own in scores.items():
+        usual = 1.0 if comparable or not own else max(median_high(own.values()), 1e-9)
         for photo, score in own.items():
-            shares.setdefault(photo, {})[name] = score / usual[name]
+            shares.setdefault(photo, {})[name] = score / usual
     shares = {photo: _of_the_best(own) for photo, own in shares.items()}
     moments = {photo: its for photo, its in (moments or {}).items() if photo in shares and its != Moment()}
     others, ranked = _Neighbors(moments), {}
@@ -53,25 +57,42 @@ def ranks(scores, moments=None, scanned=None):
     return ranked
 
 
-def chosen(ranked, all_of_them=False):
-    """Return for each item the photos that are worth matching with it, what looks best first.
+def for_second_looks(ranked):
+    """Return for each item the photos that are worth a second look; ``ranked`` is from `ranks`."""
+    return _by_item(ranked, lambda place, name, photo: place < _SECOND_LOOKS)
+
+
+def all_of_them(ranked):
+    """Return for each item all of its photos, what looks best first."""
+    return _by_item(ranked, lambda place, name, photo: True)
+
+
+def telling(first, strengths):
+    """Return for each item the photos that are worth matching with it, by that item's looks alone.
 
     Parameters
     ----------
-    ranked : dict of str to list of (str, float)
-        From `ranks`.
-    all_of_them : bool
-        Not only the likeliest.
+    first : dict of str to list of (str, float)
+        From `ranks`, at first looks.
+    strengths : dict of str to dict of str to float
+        For each item what second looks gave for photos.
     """
+
+    def worth(place, name, photo):
+        strength = strengths.get(name, {}).get(photo)
+        return strength is not None and (place < _LIKELIEST or strength >= _TELLING)
+
+    return _by_item(first, worth)
+
+
+def _by_item(ranked, worth):
+    """For each item the photos for which ``worth(place, item, photo)`` is true, what looks best first."""
     found = {}
     for photo, own in ranked.items():
-        for name, share in own if all_of_them else own[:MOST_SCANS]:
-            if all_of_them or share >= LEAST_SHARE:
-                found.setdefault(name, []).append((share, photo))
-    return {
-        name: [photo for _, photo in sorted(own, key=lambda entry: (-entry[0], entry[1]))]
-        for name, own in found.items()
-    }
+        for place, (name, share) in enumerate(own):
+            if worth(place, name, photo):
+                found.setdefault(name, []).append((-share, photo))
+    return {name: [photo for _, photo in sorted(own)] for name, own in found.items()}
 
 
 def are_few(scans, photos):

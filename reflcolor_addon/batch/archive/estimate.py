@@ -5,9 +5,10 @@ import math
 from ...files.memory import readable
 from ...messages import Message
 from ..plan import RENDER
-from .candidates import MOST_SCANS, are_few
+from .candidates import are_few
 from .costs import SECONDS_PER_LOOK
 from .progress_lines import duration
+from .tries import MOST_SCANS
 
 _SECONDS_TO_RENDER = 8.0
 
@@ -25,7 +26,7 @@ def estimate(manifest, options, costs):
     -------
     list of Message
     """
-    items = options.chosen(manifest.items)
+    items = [item for item in options.chosen(manifest.items) if costs.unusable.keys().isdisjoint(item.plan.scans)]
     pixels = sum(costs.pixels(item.plan.scans) for item in items)
     lines = [
         Message(
@@ -35,6 +36,8 @@ def estimate(manifest, options, costs):
             photos=len({path for item in items for path in item.plan.photos}),
         )
     ]
+    if not items:
+        return lines
     offered = sum(item.offered for item in manifest.items)
     pairs = len(manifest.photos)
     if not are_few(offered, pairs):

@@ -1,16 +1,16 @@
 """The first stage of a batch: which of its photos are worth matching with which of its scans."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from ...files.exif import moment_of
+from ...files.exif import Moment, moment_of
 from ...files.readers.e57_file import acquired_at
 from ...messages import Message
 from ..paths import scan_files
-from .candidates import are_few, chosen, ranks
+from .candidates import all_of_them, are_few, for_second_looks, ranks, telling
 from .workers import Task
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(kw_only=True)
 class Looks:
     """How likely each photo of a batch shows each of its scans, as far as looks tell.
 
@@ -18,26 +18,36 @@ class Looks:
     ----------
     photos, hashes : dict of str to str
         The name and the hash of each photo, by its path.
-    ranks : dict of str to list of (str, float)
-        See `candidates.ranks`.
+    moments : dict of str to Moment
+        When and where each photo was taken.
+    scanned : dict of str to float
+        When each item was scanned.
     few : bool
-        Whether there are so few pairs that all of them are matched.
+        Whether there are so few pairs that all of them may be matched.
+    first, ranks : dict of str to list of (str, float)
+        See `candidates.ranks`; at the first look, and at the last.
+    strengths : dict of str to dict of str to float
+        For each item what second looks gave for photos.
     unseen : set of str
         Names of items at which no look could be taken.
     """
 
     photos: dict[str, str]
     hashes: dict[str, str]
-    ranks: dict[str, list]
+    moments: dict[str, Moment]
+    scanned: dict[str, float | None]
     few: bool
-    unseen: set[str]
+    first: dict[str, list] = field(default_factory=dict)
+    ranks: dict[str, list] = field(default_factory=dict)
+    strengths: dict[str, dict[str, float]] = field(default_factory=dict)
+    unseen: set[str] = field(default_factory=set)
 
     def by_item(self):
         """Return the pairs that are worth matching, whatever is found for others: for each item its photos."""
-        return chosen(self.ranks, all_of_them=self.few)
+        return all_of_them(self.ranks) if self.few else telling(self.first, self.strengths)
 
 
-def looks_at_items(context, items, known_pairs):
+def first_looks(context, items, known_pairs):
     """Look at all photos of a batch for some of its items.
 
     Parameters
@@ -52,33 +62,55 @@ def looks_at_items(context, items, known_pairs):
     -------
     Looks
     """
-    scores, problems, unseen = {}, {}, set()
     photos = {str(path): context.manifest.name_of(path) for path in context.manifest.photos}
     hashes = {}
     for number, (path, name) in enumerate(photos.items()):
         context.session.progress(number / len(photos), Message("Reading photos: {name}", name=name))
         hashes |= context.hashes([path])
+    looks = Looks(
+        photos=photos,
+        hashes=hashes,
+        moments={path: moment_of(path) for path in photos},
+        scanned={item.name: _scanned_at(item) for item in items},
+        few=are_few(sum(item.offered for item in context.manifest.items), len(photos)),
+    )
+    unknown = {
+        item.name: [path for path, name in photos.items() if known_pairs.get((item.name, name)) is None]
+        for item in items
+    }
+    scores = _look(context, items, unknown, looks, "Looked at photos for")
+    looks.first = looks.ranks = ranks(scores, looks.moments, looks.scanned)
+    return looks
+
+
+def second_looks(context, items, looks):
+    """Look again at what is likeliest; the `Looks` rank what was looked at twice.
+
+    Parameters
+    ----------
+    context, items
+        As `first_looks`.
+    looks : Looks
+    """
+    likely = for_second_looks(looks.first)
+    looks.strengths = _look(context, items, likely, looks, "Looked again at photos for", second=True)
+    looks.ranks = ranks(looks.strengths, looks.moments, looks.scanned, comparable=True)
+
+
+def _look(context, items, photos, looks, what, second=False):
+    """Scores of photos for items; what is wrong with photos is told."""
+    scores, problems = {}, {}
 
     def looked(task, outcome):
         scores[task.name] = outcome["found"]["scores"]
         problems.update(outcome["found"]["problems"])
 
-    tasks = []
-    for item in items:
-        unknown = [path for path, name in photos.items() if known_pairs.get((item.name, name)) is None]
-        tasks += [_task(context, item, unknown, hashes)] if unknown else []
-    # What is wrong is told when the item is colorized.
-    context.work_again(tasks, looked, lambda task: unseen.add(task.name), "Looked at photos for")
+    tasks = [_task(context, item, photos[item.name], looks.hashes, second) for item in items if photos.get(item.name)]
+    # What is wrong with a scan is told when it is colorized.
+    context.work_again(tasks, looked, lambda task: looks.unseen.add(task.name), what)
     for path, problem in problems.items():
         context.tell_problem(path, problem)
-    moments = {path: moment_of(path) for path in photos}
-    return Looks(
-        photos=photos,
-        hashes=hashes,
-        ranks=ranks(scores, moments, {item.name: _scanned_at(item) for item in items}),
-        few=are_few(sum(item.offered for item in context.manifest.items), len(photos)),
-        unseen=unseen,
-    )
+    return scores
 
 
 def _scanned_at(item):
@@ -87,12 +119,13 @@ def _scanned_at(item):
     return next((time for time in times if time is not None), None)
 
 
-def _task(context, item, photos, hashes):
+def _task(context, item, photos, hashes, second):
     files = [file for path in item.plan.scans for file in scan_files(path)]
     return Task(
         name=item.name,
         request={
             "do": "look",
+            "second": second,
             "folder": str(context.folder.root),
             "scans": [str(path) for path in item.plan.scans],
             "reading": item.plan.reading.as_dict(),

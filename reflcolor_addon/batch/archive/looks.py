@@ -11,8 +11,8 @@ from ...messages import without_file
 from ..paths import scan_files
 from ..plan_document import reading_of
 from .fingerprints import digest_of, program_digest
-from .first_look import first_look
 from .folder import BatchFolder
+from .two_looks import first_look, second_look
 
 KIND = "looks"
 _SKETCH_SIDE = 640
@@ -26,7 +26,8 @@ def look_at(request, *, progress, cancelled):
     Parameters
     ----------
     request : dict
-        ``folder`` of the batch, ``scans``, how they are read (``reading``), ``photos``, and ``hashes`` of them all.
+        ``folder`` of the batch, ``scans``, how they are read (``reading``), ``photos``, and ``hashes`` of them all;
+        ``second``: whether it is the second look.
     progress, cancelled : callable
 
     Returns
@@ -38,7 +39,8 @@ def look_at(request, *, progress, cancelled):
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
     scans = [hashes[str(file)] for path in request["scans"] for file in scan_files(Path(path))]
     # Files that could not be hashed cannot be told from one another: nothing is kept about them.
-    key = digest_of([program_digest(), request["reading"], *scans]) if all(scans) else None
+    look, second = (second_look, ["second"]) if request["second"] else (first_look, [])
+    key = digest_of([program_digest(), request["reading"], *scans, *second]) if all(scans) else None
     known = (key and folder.recall(KIND, key)) or {}
     scores = {path: known[hashes[path]] for path in request["photos"] if hashes[path] in known}
     problems, missing = {}, [path for path in request["photos"] if path not in scores]
@@ -57,7 +59,7 @@ def look_at(request, *, progress, cancelled):
             except ReflcolorError as error:
                 problems[path] = without_file(error.message)
                 continue
-            scores[path] = max((first_look(own, photo, step) for own in views), default=0.0)
+            scores[path] = max((look(own, photo, step) for own in views), default=0.0)
             if hashes[path]:
                 known[hashes[path]] = scores[path]
     finally:

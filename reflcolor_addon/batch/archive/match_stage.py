@@ -8,6 +8,7 @@ from ..paths import scan_files
 from ..plan_document import as_document
 from .claims import Claim, Verdict, verdict
 from .fingerprints import digest_of, program_digest
+from .look_stage import second_looks
 from .tries import Tries
 from .workers import Task
 
@@ -64,12 +65,15 @@ def match_items(context, items, own, looks, known_pairs, matched):
     own : set of str
         The names of those to work on; what is known already counts for the others.
     looks : Looks
-        From `look_stage.looks_at_items`.
+        From `look_stage.first_looks`.
     known_pairs : dict of (str, str) to bool
         As there.
     matched : Matched
         What is found is added to it, little by little.
     """
+    if not looks.few:
+        # A part of a batch does not look again at what other parts have.
+        second_looks(context, [item for item in items if item.name in own], looks)
     rounds = _Rounds(context, items, own, looks, known_pairs, matched)
     rounds.match(rounds.given())
     if own >= {item.name for item in items}:

@@ -5,13 +5,11 @@ from ...matching.opened_photos import opened_photos
 from ...matching.registration.location import located
 from ...matching.registration.registration import ScanViews
 from ...messages import without_file
-from ...progress import part
 from ..check import check_plan
 from ..read import read_jobs
 from ..scan_job import require_reflectance
 from .places import camera_place, depth_map
 
-KIND = "pairs"
 # Share of the progress that is done when the scans are read.
 _READING = 0.1
 
@@ -44,7 +42,10 @@ def match_at(plan, session):
     views, nobody = [ScanViews(scan) for scan in scans], [None] * len(scans)
     pairs, problems = {}, {}
     for number, path in enumerate(plan.photos):
-        progress = part(session.progress, number, len(plan.photos), path.name)
+
+        def step(text, number=number):
+            session.progress((number + 0.5) / len(plan.photos), text)
+
         try:
             (photo,) = opened_photos([path])
         except ReflcolorError as error:
@@ -54,7 +55,7 @@ def match_at(plan, session):
         def registered(scan, register, path=path):
             return session.registrations(jobs[scan], path, register)
 
-        found = located(scans, views, nobody, photo, lambda text, progress=progress: progress(0.5, text), registered)
+        found = located(scans, views, nobody, photo, step, registered)
         pairs[str(path)] = [_told(job, location) for job, location in zip(jobs, found, strict=True)]
     return {"pairs": pairs, "problems": problems}
 

@@ -11,7 +11,7 @@ from .context import Context, hashed
 from .done import Done
 from .duplicates import duplicates
 from .fingerprints import Fingerprints
-from .look_stage import looks_at_items
+from .look_stage import first_looks
 from .match_stage import Matched, match_items
 from .options import COLOR, DUPLICATE, FAILED, KNOWN, LOOK, MATCH, RENDERING, STAGES, State
 from .pairs_table import write_table
@@ -108,7 +108,7 @@ def _find_photos(context, states, known_pairs, matched):
     items = [item for item in items if item.offered and item.name not in context.same.items]
     items = [item for item in items if _unusable(context, item) is None]
     try:
-        looks = looks_at_items(context, items, known_pairs)
+        looks = first_looks(context, items, known_pairs)
         if MATCH in stages or COLOR in stages:
             match_items(context, items, {item.name for item in own}, looks, known_pairs, matched)
     except Cancelled:

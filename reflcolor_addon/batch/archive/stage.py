@@ -167,8 +167,8 @@ def _unshown(tried):
 
 
 def _bare(text):
-    """An error as part of a line."""
-    return text.rstrip(".")
+    """An error as part of a line: all of it, since its own parts are short enough."""
+    return Message(text.rstrip("."))
 
 
 def _matched(context, state):

@@ -79,12 +79,14 @@ def run(arguments, session):
         costs = check_files(manifest, items, unusable.append, decode=arguments.check, progress=session.progress)
     for fault in (*faults, *unusable):
         session.complain(str(fault))
-    if faults or (unusable and (arguments.check or not arguments.keep_going)):
+    if faults or (unusable and not arguments.keep_going):
         raise UsageError(_summary(arguments, len(faults), len(unusable)))
     if any(item.offered for item in items):
         manifest = manifest.with_photos([path for path in manifest.photos if path in costs.photos])
     for line in estimate(manifest, options, costs):
         session.say(line)
+    if unusable and arguments.check:
+        raise UsageError(_summary(arguments, 0, len(unusable)))
     if arguments.check:
         return
     if arguments.openjd:
@@ -138,7 +140,7 @@ def _summary(arguments, faults, unusable):
         if faults + unusable == 1
         else Message("{count} things are wrong", count=faults + unusable)
     )
-    if faults or arguments.check:
+    if faults or arguments.keep_going:
         return Message("{file}: {count}, see above", file=arguments.input, count=count)
     return Message(
         "{file}: {count}, see above; mend these files or take them out, or go on without them by --keep-going",

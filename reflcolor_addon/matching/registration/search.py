@@ -85,7 +85,7 @@ class Search:
         step : callable
             Called now and then; may raise to end the work.
         """
-        guesses = _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], 1, _FOCALS, _PITCHES, 3, step))
+        guesses = self.directions(step)
         tried = self._around(guesses[:_SHARPENED], (0.92, 1.0, 1.09), (-4.0, 0.0, 4.0), 2, step)
         return _unlike_ones([*tried, *guesses])
 
@@ -95,10 +95,9 @@ class Search:
         guesses = _unlike_ones(self._everywhere(places, _COARSER, _ASIDE_FOCALS, _ASIDE_PITCHES, 2, step))
         return _unlike_ones(self._around(guesses[:_LOOKED_AT], (0.93, 1.0, 1.07), (0.0,), 1, step))
 
-    def likeness(self, step=lambda: None):
-        """Return the best score of all directions from the scanner's place; 0 where none can be tried."""
-        guesses = self._everywhere([(0.0, 0.0, 0.0)], 1, _FOCALS, _PITCHES, 1, step)
-        return max((guess.score for guess in guesses), default=0.0)
+    def directions(self, step=lambda: None):
+        """Return `Guess`es of a photo taken from the scanner's place before they are sharpened; see `from_scanner`."""
+        return _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], 1, _FOCALS, _PITCHES, 3, step))
 
     def _everywhere(self, places, coarser, focals, pitches, count, step):
         """The best guesses from each place for each focal length and pitch."""
