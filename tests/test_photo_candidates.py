@@ -15,6 +15,7 @@ from reflcolor_addon.batch.archive.candidates import (
     all_of_them,
     are_few,
     for_second_looks,
+    merged,
     ranks,
     telling,
 )
@@ -101,6 +102,12 @@ def test_scans_are_ranked_by_how_much_a_photo_looks_like_them_and_the_likeliest_
 def test_second_looks_can_be_compared_between_scans():
     scores = {"detailed": {"a": 50.0, "b": 52.0}, "plain": {"a": 40.0, "b": 9.0}}
     assert [name for name, _ in ranks(scores, comparable=True)["a"]] == ["detailed", "plain"]
+
+
+def test_what_either_look_puts_in_front_is_tried_first():
+    first = {"a": [(name, 1.0) for name in ("hall", "attic", "cellar", "yard")]}
+    second = {"a": [("cellar", 1.0), ("attic", 0.5), ("hall", 0.1)]}
+    assert merged(first, second) == {"a": [("cellar", 1.0), ("hall", 0.1), ("attic", 0.5), ("yard", 0.0)]}
 
 
 def test_a_part_of_an_archive_takes_photos_that_its_own_looks_speak_for():

@@ -57,6 +57,23 @@ def ranks(scores, moments=None, scanned=None, comparable=False):
     return ranked
 
 
+def merged(first, second):
+    """Return ranks by two looks: what the one and the other puts in front comes in turn, because each misses some.
+
+    Parameters
+    ----------
+    first, second : dict of str to list of (str, float)
+        From `ranks`; what was not looked at twice comes last. The shares are those of the second look.
+    """
+    found = {}
+    for photo, own in first.items():
+        again = second.get(photo, [])
+        shares, names = dict(again), [name for name, _ in own]
+        in_turn = [name for pair in zip([name for name, _ in again], names, strict=False) for name in pair]
+        found[photo] = [(name, shares.get(name, 0.0)) for name in dict.fromkeys([*in_turn, *shares, *names])]
+    return found
+
+
 def for_second_looks(ranked):
     """Return for each item the photos that are worth a second look; ``ranked`` is from `ranks`."""
     return _by_item(ranked, lambda place, name, photo: place < _SECOND_LOOKS)

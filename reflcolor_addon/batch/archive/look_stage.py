@@ -6,7 +6,7 @@ from ...files.exif import Moment, moment_of
 from ...files.readers.e57_file import acquired_at
 from ...messages import Message
 from ..paths import scan_files
-from .candidates import all_of_them, are_few, for_second_looks, ranks, telling
+from .candidates import all_of_them, are_few, for_second_looks, merged, ranks, telling
 from .workers import Task
 
 
@@ -94,7 +94,7 @@ def second_looks(context, items, looks):
     """
     likely = for_second_looks(looks.first)
     looks.strengths = _look(context, items, likely, looks, "Looked again at photos for", second=True)
-    looks.ranks = ranks(looks.strengths, looks.moments, looks.scanned, comparable=True)
+    looks.ranks = merged(looks.first, ranks(looks.strengths, looks.moments, looks.scanned, comparable=True))
 
 
 def _look(context, items, photos, looks, what, second=False):

@@ -4,8 +4,6 @@ from collections import defaultdict
 
 # How many scans a photo is tried on at first, and then in each round, and at most.
 _AT_FIRST, _A_ROUND, MOST_SCANS = 2, 2, 8
-# How much less likely than the likeliest a scan may be that is still tried.
-_LEAST_SHARE = 0.3
 # From this strength on a photo is placed; then it is tried on so many at most, because another scan may show the same
 # place, and on those that are known to.
 _PLACED, _MOST_PLACED = 50.0, 4
@@ -19,7 +17,8 @@ class Tries:
     Parameters
     ----------
     ranks : dict of str to list of (str, float)
-        For each photo its scans (the items of the batch, by their names) and how likely each is, the likeliest first.
+        For each photo its scans (the items of the batch, by their names) in the order in which they are tried, and how
+        likely each is.
     few : bool
         Whether there are so few pairs that a photo which is not placed may be tried on all scans.
     """
@@ -27,7 +26,7 @@ class Tries:
     def __init__(self, ranks, few=False):
         count = sum(map(len, ranks.values()))
         self._ranks = ranks
-        self._most, self._least_share = (count, 0.0) if few else (MOST_SCANS, _LEAST_SHARE)
+        self._most = count if few else MOST_SCANS
         self._budget = count if few else int(_MOST_PAIRS * count)
         self._tried = {photo: [] for photo in ranks}
 
@@ -52,9 +51,9 @@ class Tries:
             tried = self._tried[photo]
             most, neighbors = self._left(claims.get(photo, ()), beside)
             open_ones = [(share, photo, name) for name, share in ranked if name not in tried]
-            likely = [one for one in open_ones if one[0] >= self._least_share * ranked[0][1]]
-            count = min(_AT_FIRST if first else _A_ROUND, most - len(tried))
-            wanted += dict.fromkeys([*likely[: max(0, count)], *(one for one in open_ones if one[2] in neighbors)])
+            count = max(0, min(_AT_FIRST if first else _A_ROUND, most - len(tried)))
+            wanted += [one for one in open_ones[:count] if one[2] not in neighbors]
+            wanted += [(1.0, photo, name) for _, _, name in open_ones if name in neighbors]
         wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
         if not first:
             wanted = wanted[: max(0, self._budget - sum(map(len, self._tried.values())))]
