@@ -5,7 +5,8 @@ every tenth of them of a room that was never scanned. A batch finds out which ph
 pairs is compared with the truth:
 
 - true pairs lost: a photo that shows a scan, and that matching alone verifies, but that the batch did not find;
-- false pairs: a photo said to show a scan of another room;
+- false pairs: a photo said to show a scan of another room; and contradictions, which the batch refused, because such a
+  photo is verified on scans of different places;
 - cost: processor time of the batch, colorizing and writing included, beside that of matching every photo with every
   scan. The latter is measured on all true pairs and on a random sample of the others, and summed up.
 
@@ -62,7 +63,11 @@ def main():
     while not (batch := known.of("batch", dict)).get("done"):
         known.set("batch", run_batch(folder, arguments.jobs, batch, known.end))
     table = rows(folder)
-    found = {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] == "yes"}
+    found, refused = (
+        {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] == shows}
+        for shows in ("yes", "contradiction")
+    )
+    matched_pairs = sum(row["shows"] != "not tried" for row in table)
     verified = {pair for pair, own in zip(pairs, true, strict=True) if own["verified"]}
     lost = sorted(verified - found)
     count = arguments.scans * arguments.photos
@@ -72,8 +77,9 @@ def main():
     print(f"matching alone verifies {len(verified)} true pairs; the batch found {len(found & set(pairs))}")
     print(f"true pairs lost: {len(lost)} of {len(verified)} ({len(lost) / max(len(verified), 1):.1%})", *lost)
     print(f"false pairs: {len(found - set(pairs))}", *sorted(found - set(pairs)))
+    print(f"contradictions: {len(refused - set(pairs))} false pairs, {len(refused & set(pairs))} true ones")
     print(f"matching alone verifies {sum(own['verified'] for own in wrong)} of {len(wrong)} wrong pairs")
-    print(f"pairs matched after the first look: {len(table)} ({len(table) / count:.1%})")
+    print(f"pairs matched after the looks: {matched_pairs} ({matched_pairs / count:.1%})")
     print(f"processor time of the batch: {batch['processor']:.0f} s ({batch['seconds']:.0f} s by the clock)")
     print(f"of all pairs: {everything:.0f} s ({of_true:.1f} s a true pair, {of_wrong:.1f} s a wrong one)")
     print(f"ratio: {batch['processor'] / everything:.3f}")

@@ -33,7 +33,7 @@ from reflcolor_addon import Seeds
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
 
-_WITH_SEEDS, _WITH_PHOTOS, _PHOTOS = 8, 2, 2
+_WITH_SEEDS, _WITH_PHOTOS, _PHOTOS = 6, 3, 3
 _COLORED, _STATE = "colored", "batch-state"
 _DISK_KB = 1200
 
@@ -177,7 +177,7 @@ def _kill(folder, whole, known, moments):
         what = "child" if moment % 2 else "parent"
         process = _started(own)
         # A busy machine is slow: the moment is told by what is finished, and a little more.
-        count = chance.randrange(_WITH_SEEDS + _WITH_PHOTOS)
+        count = chance.randrange(_WITH_SEEDS + _WITH_PHOTOS * (1 + _PHOTOS))
         while process.poll() is None and len(_finished(own / _COLORED)) < count:
             time.sleep(0.01)
         time.sleep(chance.uniform(0, 0.5))

@@ -272,6 +272,11 @@ def test_a_file_under_another_formats_name_is_told(tmp_path):
         read(tmp_path, "hall.pts", ptx_text(HALL, NAMES).split("\n", 10)[-1].encode())
 
 
+def test_a_ptx_under_the_name_of_a_text_of_points_is_told(tmp_path):
+    with pytest.raises(ScanError, match=r"hall.pts: its contents look like .ptx: rename it"):
+        read(tmp_path, "hall.pts", ptx_text(HALL, NAMES).encode())
+
+
 def test_every_format_has_a_name_suffixes_and_a_line_about_it():
     suffixes = [suffix for kind in FORMATS for suffix in kind.suffixes]
     assert len(suffixes) == len(set(suffixes)) and not set(suffixes) & set(REFUSED)

@@ -114,8 +114,9 @@ def _kind_of(path, start):
             known=known,
             contents=found.suffixes[0],
         )
-    # Text of plain numbers looks like a PTX where it begins with a count.
-    if found is not None and found is not named and named.sniff is not None:
+    # Text of plain numbers looks like a PTX where it begins with a count; but a PTX has two, each on a line of its own.
+    two_counts = [len(line.split()) for line in start.splitlines()[:2]] == [1, 1]
+    if found is not None and found is not named and (named.sniff is not None or two_counts):
         raise ScanError(
             "{file}: its contents look like {contents}: rename it", file=path.name, contents=found.suffixes[0]
         )
