@@ -9,7 +9,7 @@ from ...files.exif import Moment
 # Up to so many pairs of a scan and a photo, all are matched: first looks save little there, and may miss what fits.
 ALL_PAIRS = 300
 # How many scans each photo gets a second look at, the likeliest at the first.
-_SECOND_LOOKS = 20
+SECOND_LOOKS = 20
 # Where nothing is known of other scans, a photo is matched with the likeliest at the first look, and with those for
 # which at least so much speaks at the second.
 _LIKELIEST, _TELLING = 2, 15.0
@@ -76,7 +76,7 @@ def merged(first, second):
 
 def for_second_looks(ranked):
     """Return for each item the photos that are worth a second look; ``ranked`` is from `ranks`."""
-    return _by_item(ranked, lambda place, name, photo: place < _SECOND_LOOKS)
+    return _by_item(ranked, lambda place, name, photo: place < SECOND_LOOKS)
 
 
 def all_of_them(ranked):

@@ -5,8 +5,8 @@ import math
 from ...files.memory import readable
 from ...messages import Message
 from ..plan import RENDER
-from .candidates import are_few
-from .costs import SECONDS_PER_LOOK
+from .candidates import SECOND_LOOKS, are_few
+from .costs import SECONDS_PER_LOOK, SECONDS_PER_SECOND_LOOK
 from .progress_lines import duration
 from .tries import MOST_SCANS
 
@@ -39,13 +39,14 @@ def estimate(manifest, options, costs):
     if not items:
         return lines
     offered = sum(item.offered for item in manifest.items)
-    pairs = len(manifest.photos)
+    pairs, looks = len(manifest.photos), SECONDS_PER_LOOK * len(manifest.photos)
     if not are_few(offered, pairs):
-        # Each photo is matched with few scans, whatever the number of scans.
+        # Each photo is matched with few scans, and looked at again for some, whatever the number of scans.
+        looks += SECONDS_PER_SECOND_LOOK * pairs * min(SECOND_LOOKS, offered) / offered
         pairs *= min(MOST_SCANS, offered) / offered
     seconds = sum(
         costs.seconds(item.plan.scans, pairs if item.offered else 0 if item.plan.seeds else len(item.plan.photos))
-        + SECONDS_PER_LOOK * len(manifest.photos) * item.offered
+        + looks * item.offered
         + _SECONDS_TO_RENDER * any(output.kind == RENDER for output in item.plan.outputs)
         for item in items
     )
