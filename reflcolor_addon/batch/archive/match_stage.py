@@ -81,8 +81,9 @@ def match_items(context, items, own, looks, known_pairs, matched):
         while pairs := tries.next(rounds.claims(), rounds.beside()):
             rounds.match(pairs)
     else:
-        # A part of a batch does not wait for what the others find.
+        # A part of a batch does not wait for what the others find, but takes what they have found.
         rounds.match(looks.by_item())
+        rounds.recall_others()
     rounds.decide()
 
 
@@ -98,17 +99,27 @@ class _Rounds:
             if item in self._items and photo in names
         }
         self._found = matched
+        # What is wrong is told when the item is colorized.
+        self._found.by_likeness |= {name: list(looks.photos) for name in looks.unseen}
         self._number = 0
 
     def given(self):
-        """The pairs that a person names, and what no look could be taken of."""
+        """The pairs that a person names."""
         pairs = defaultdict(list)
         for (name, path), shows in self._said.items():
             if shows:
                 pairs[name].append(path)
-        for name in self._looks.unseen:
-            self._found.by_likeness[name] = list(self._looks.photos)
         return pairs
+
+    def recall_others(self):
+        """Take what other parts of the batch have found for their items."""
+        for name in self._items.keys() - self._own:
+            known = self._recalled(self._key(self._items[name]))
+            self._found.pairs[name] |= {
+                path: known[key]
+                for path, key in self._looks.hashes.items()
+                if key in known and self._may_show(name, path)
+            }
 
     def match(self, pairs):
         """Match pairs that are not known yet, and keep what was found."""
@@ -116,7 +127,7 @@ class _Rounds:
         for name, paths in pairs.items():
             item = self._items[name]
             paths = [path for path in paths if path not in self._found.pairs[name] and self._may_show(name, path)]
-            if item.plan.settings.matching == "paper":
+            if item.plan.settings.matching == "paper" or name in self._found.by_likeness:
                 self._found.by_likeness.setdefault(name, []).extend(paths)
                 continue
             keys[name] = self._key(item)
@@ -192,6 +203,9 @@ class _Rounds:
         claims = defaultdict(list)
         for name, found in self._found.pairs.items():
             for path, pairs in found.items():
+                # A scan without any return claims nothing.
+                if not pairs:
+                    continue
                 claims[path].append(Claim.of(name, pairs, self._said.get((name, path), False)))
         return claims
 
