@@ -180,6 +180,16 @@ def test_a_scan_that_cannot_be_read_fails_also_where_photos_are_looked_for(archi
     assert "hall_0.ptx: line 1" in table_of(archive)["hall_0"]["note"]
 
 
+def test_a_slice_knows_what_others_have_found_for_their_scans(archive, batch):
+    write_png(archive / "a.png", np.random.default_rng(0).integers(0, 256, (40, 60, 3)).astype(np.uint8))
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
+    assert batch("--stage", "match", "--index", "1")[0] == 0
+    assert batch("--stage", "color", "--index", "2")[0] == 0
+    with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
+        shows = {row["scan"]: row["shows"] for row in csv.DictReader(file)}
+    assert shows == {"hall_0": "cannot be tested", "hall_1": "cannot be tested"}
+
+
 def test_a_scan_that_no_photo_shows_any_more_is_told_so(archive, batch):
     batch()
     folder = BatchFolder(Path("colored"))
