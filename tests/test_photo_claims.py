@@ -81,49 +81,49 @@ def test_the_shape_that_a_photo_shows_does_not_depend_on_where_the_scanner_stood
     assert camera_place(posed, camera) == [7, 8, 9, -1, 0, 0]
 
 
+def rounds_of(tries, claims=None, beside=None):
+    """All rounds, with these claims after the first: pairs of a photo and a scan."""
+    rounds, found = [], {}
+    while pairs := tries.next(found, beside or {}):
+        rounds.append({(photo, name) for name, photos in pairs.items() for photo in photos})
+        found = claims or {}
+    return rounds
+
+
+def count(rounds, photo):
+    return sum(own == photo for pairs in rounds for own, _ in pairs)
+
+
 # Many more pairs, so that the share of all that may be tried does not end the rounds.
 _OTHERS = {"other": [(f"other scan {number}", 1.0) for number in range(2000)]}
+_NAMES = [f"scan {number:02}" for number in range(20)]
 
 
-def tried(rounds):
-    return {(photo, name) for pairs in rounds for name, photos in pairs.items() for photo in photos}
+def test_the_likeliest_pairs_are_matched_first_and_a_placed_photo_takes_few_more():
+    ranks = {photo: [(name, 1.0 - 0.1 * k) for k, name in enumerate(_NAMES)] for photo in ("sure", "unsure")}
+    claims = {"sure": [claim("scan 00", 80.0)], "unsure": [claim("scan 00", 30.0), claim("scan 05", 29.0)]}
+    rounds = rounds_of(Tries(ranks | _OTHERS), claims)
+    assert {("sure", "scan 00"), ("unsure", "scan 00")} < rounds[0] and len(rounds[0]) == 3
+    assert count(rounds, "unsure") == MOST_SCANS
+    assert 1 < count(rounds, "sure") < MOST_SCANS / 2
 
 
-def test_the_likeliest_pairs_are_matched_first_and_a_placed_photo_takes_no_more():
-    names = [f"scan {number}" for number in range(20)]
-    ranks = {photo: [(name, 1.0 - 0.03 * k) for k, name in enumerate(names)] for photo in ("sure", "unsure")}
-    tries, claims, rounds = Tries(ranks | _OTHERS), {}, []
-    while pairs := tries.next(claims, {}):
-        rounds.append(pairs)
-        claims = {"sure": [claim("scan 0", 80.0)], "unsure": [claim("scan 1", 9.0)]}
-    assert {pair for pair in tried(rounds[:1]) if pair[0] in ranks} == {
-        (one, name) for one in ranks for name in names[:2]
-    }
-    assert len([pair for pair in tried(rounds) if pair[0] == "unsure"]) == MOST_SCANS
-    assert len([pair for pair in tried(rounds) if pair[0] == "sure"]) < MOST_SCANS
+def test_a_placed_photo_is_not_tried_on_scans_that_are_far_less_likely():
+    ranks = {"a": [("hall", 1.0), ("cellar", 0.2)]}
+    assert count(rounds_of(Tries(ranks | _OTHERS), {"a": [claim("hall", 80.0)]}), "a") == 1
 
 
 def test_scans_of_the_place_that_a_photo_shows_are_tried_even_if_they_look_unlikely():
-    likely, unlikely = ["hall", *(f"scan {number}" for number in range(9))], ["cellar", "hall again"]
-    ranks = {"a": [(name, 1.0) for name in likely] + [(name, 0.01) for name in unlikely]}
-    tries = Tries(ranks | _OTHERS)
-    assert "hall" in tries.next({}, {})
-    following = tries.next({"a": [claim("hall", 80.0)]}, {"hall": {"hall again"}})
-    assert "hall again" in following and "cellar" not in following
+    ranks = {"a": [("hall", 1.0), ("cellar", 0.02), ("hall again", 0.01)]}
+    rounds = rounds_of(Tries(ranks | _OTHERS), {"a": [claim("hall", 80.0)]}, {"hall": {"hall again"}})
+    assert [pair for pairs in rounds for pair in pairs if pair[0] == "a"] == [("a", "hall"), ("a", "hall again")]
 
 
 def test_in_a_small_archive_a_photo_that_is_not_found_is_tried_on_all_scans():
-    ranks = {"a": [(f"scan {number}", 1.0 / (number + 1)) for number in range(12)]}
-    tries, rounds = Tries(ranks, few=True), []
-    while pairs := tries.next({}, {}):
-        rounds.append(pairs)
-    assert len(tried(rounds)) == 12
+    ranks = {"a": [(name, 1.0 / (k + 1)) for k, name in enumerate(_NAMES)]}
+    assert count(rounds_of(Tries(ranks, few=True)), "a") == len(_NAMES)
 
 
 def test_no_more_than_a_share_of_all_pairs_is_matched():
-    names = [f"scan {number:02}" for number in range(30)]
-    ranks = {f"{photo}": [(name, 1.0) for name in names] for photo in range(40)}
-    tries, rounds = Tries(ranks), []
-    while pairs := tries.next({}, {}):
-        rounds.append(pairs)
-    assert len(tried(rounds)) <= 0.15 * 1200
+    ranks = {f"{photo}": [(f"scan {number}", 1.0) for number in range(30)] for photo in range(40)}
+    assert sum(map(len, rounds_of(Tries(ranks)))) <= 0.15 * 1200

@@ -2,13 +2,16 @@
 
 from collections import defaultdict
 
-# How many scans a photo is tried on at first, and then in each round, and at most.
-_AT_FIRST, _A_ROUND, MOST_SCANS = 2, 2, 8
-# From this strength on a photo is placed; then it is tried on so many at most, because another scan may show the same
-# place, and on those that are known to.
-_PLACED, _MOST_PLACED = 50.0, 4
+# On how many scans a photo is tried at most.
+MOST_SCANS = 9
+# In a small archive, a round tries a photo on several, so that scans are not read again and again.
+_AT_ONCE = 3
+# A photo is placed where at least so much speaks for it, and twice as much as for any other place that it was tried on.
+# Then it is tried on further scans, which may show the same place, only if they are nearly as likely as the best one,
+# and only in every third round.
+_PLACED, _CLEARLY, _NEARLY, _MORE_EVERY = 25.0, 2.0, 0.5, 3
 # Which share of all pairs is matched at most, beyond the first round.
-_MOST_PAIRS = 0.11
+_MOST_PAIRS = 0.13
 
 
 class Tries:
@@ -25,10 +28,9 @@ class Tries:
 
     def __init__(self, ranks, few=False):
         count = sum(map(len, ranks.values()))
-        self._ranks = ranks
-        self._most = count if few else MOST_SCANS
-        self._budget = count if few else int(_MOST_PAIRS * count)
-        self._tried = {photo: [] for photo in ranks}
+        self._ranks, self._tried, self._rounds = ranks, {photo: [] for photo in ranks}, 0
+        self._most, self._at_once = (count, _AT_ONCE) if few else (MOST_SCANS, 1)
+        self._budget = count if few else max(len(ranks), int(_MOST_PAIRS * count))
 
     def next(self, claims, beside):
         """Return the pairs of the next round; none at the end.
@@ -45,27 +47,35 @@ class Tries:
         dict of str to list of str
             For each item its photos.
         """
-        first = not any(self._tried.values())
-        wanted = []
-        for photo, ranked in self._ranks.items():
-            tried = self._tried[photo]
-            most, neighbors = self._left(claims.get(photo, ()), beside)
-            open_ones = [(share, photo, name) for name, share in ranked if name not in tried]
-            count = max(0, min(_AT_FIRST if first else _A_ROUND, most - len(tried)))
-            wanted += [one for one in open_ones[:count] if one[2] not in neighbors]
-            wanted += [(1.0, photo, name) for _, _, name in open_ones if name in neighbors]
-        wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
-        if not first:
-            wanted = wanted[: max(0, self._budget - sum(map(len, self._tried.values())))]
-        pairs = defaultdict(list)
-        for _, photo, name in wanted:
-            self._tried[photo].append(name)
-            pairs[name].append(photo)
+        pairs, left = defaultdict(list), self._budget - sum(map(len, self._tried.values()))
+        while not pairs and left > 0 and self._rounds < self._most:
+            self._rounds += 1
+            wanted = [(-share, photo, name) for photo in self._ranks for share, name in self._of(photo, claims, beside)]
+            for _, photo, name in sorted(wanted)[:left]:
+                self._tried[photo].append(name)
+                pairs[name].append(photo)
         return dict(pairs)
 
-    def _left(self, claims, beside):
-        """On how many scans at most a photo is tried, and which are tried beyond that."""
-        placed = [claim for claim in claims if claim.verified and claim.strength >= _PLACED]
-        if not placed:
-            return self._most, ()
-        return _MOST_PLACED, beside.get(max(placed, key=lambda claim: claim.strength).item, ())
+    def _of(self, photo, claims, beside):
+        """What a photo is tried on in this round: (how likely, item)."""
+        ranked, tried = self._ranks[photo], self._tried[photo]
+        placed = _placed(claims.get(photo, ()), beside)
+        open_ones = [(share, name) for name, share in ranked if name not in tried]
+        if placed is None:
+            return open_ones[: max(0, self._rounds * self._at_once - len(tried))]
+        # A scan of the same place comes before all others.
+        neighbors = [(1.0, name) for _, name in open_ones if name in beside.get(placed, ())]
+        best = max(share for _, share in ranked)
+        likely = [(share, name) for share, name in open_ones if share >= _NEARLY * best]
+        return neighbors or likely[: max(0, 1 + self._rounds // _MORE_EVERY - len(tried))]
+
+
+def _placed(claims, beside):
+    """The item that a photo certainly shows; None as long as that is not known."""
+    verified = [claim for claim in claims if claim.verified and claim.strength >= _PLACED]
+    if not verified:
+        return None
+    best = max(verified, key=lambda claim: claim.strength)
+    others = [claim for claim in claims if claim is not best and claim.item not in beside.get(best.item, ())]
+    clear = all(best.strength >= _CLEARLY * claim.strength for claim in others)
+    return best.item if clear else None
