@@ -11,6 +11,7 @@ from reflcolor_addon import Scan
 from reflcolor_addon.geodesic.engines import NativeEngine
 from reflcolor_addon.geodesic.exact import HeldFields, add_fields
 from reflcolor_addon.geodesic.graph import PixelGraph
+from reflcolor_addon.scan.grid_mesh import face_mask
 from reflcolor_addon.scan.normalization import normalize
 
 PAPER_SIZE = (760, 1135)
@@ -54,22 +55,45 @@ def pixel_graph(images, neighbors=8):
 
 
 def whole_scan(name, stride, shape=PAPER_SIZE):
-    """A scan of `SCANS`, enlarged to ``shape`` and thinned out again; its color is enlarged, too."""
+    """A scan of `SCANS`, enlarged to ``shape`` and thinned out again; its color is enlarged, too.
+
+    Its range is interpolated on surfaces alone: between two of them it jumps, as a scanner would have measured it.
+    """
     import cv2
 
     small = real_scans.load(name, DATA)
-    luminance, range_image, valid = enlarged(name, shape)
+    luminance, _, valid = enlarged(name, shape)
     height, width = valid.shape
     azimuth, elevation = np.linspace(-0.7, 0.7, width), np.linspace(0.4, -0.4, height)[:, None]
     towards = np.cos(elevation) * np.cos(azimuth), -np.cos(elevation) * np.sin(azimuth), np.sin(elevation) + 0 * azimuth
     thin = np.s_[::stride, ::stride]
+    points = np.stack([each[thin] for each in towards], axis=-1)
+    points *= 1 + _enlarged_range(small, shape)[thin][..., None] / 25
     return Scan(
         name=name,
-        points=(np.stack(towards, axis=-1) * (1 + range_image[..., None] / 25))[thin],
+        points=points,
         reflectance=luminance[thin],
         valid=valid[thin],
         color=cv2.resize(small.color, (width, height), interpolation=cv2.INTER_LINEAR)[thin],
     )
+
+
+def _enlarged_range(small, shape):
+    """(H, W) float32, 0..255: interpolated where the four pixels around a place are a face of the scan's mesh, else
+    that of the nearest pixel."""
+    import cv2
+
+    range_image, _ = normalize(small.range, small.valid)
+    within, nearest = (
+        cv2.resize(range_image, shape[::-1], interpolation=way) for way in (cv2.INTER_LINEAR, cv2.INTER_NEAREST)
+    )
+    faces = face_mask(small)
+    # Of each place, the pixel above and left of it; beyond the middle of a pixel at the edge there is no face.
+    places = [(np.arange(new) + 0.5) * old / new - 0.5 for new, old in zip(shape, small.shape, strict=True)]
+    rows, cols = (np.floor(place).astype(np.int64) for place in places)
+    inside = ((rows >= 0) & (rows < faces.shape[0]))[:, None] & ((cols >= 0) & (cols < faces.shape[1]))
+    smooth = faces[np.clip(rows, 0, faces.shape[0] - 1)[:, None], np.clip(cols, 0, faces.shape[1] - 1)] & inside
+    return np.where(smooth, within, nearest)
 
 
 def images_of(scan):

@@ -5,8 +5,6 @@ of its own, as a user starts it, in the same Blender; the two builds take turns.
 than a run without it. Seconds are of the processor, of all processes of a run together; memory is the most that they
 held at once. Figures are medians.
 
-    python -m benchmarks.job --growth [CASE ...]      one build, from 1 to 40 megapixels
-
 Runs are kept in build/bench-job/, so that a call that was interrupted goes on where it was; they are made anew for
 another commit. Linux only.
 """
@@ -33,7 +31,6 @@ CASES = {
     "doria": ((760, 1135, "ptx"), True),
     "doria_4": ((2000, 2000, "e57"), False),
 }
-GROWTH = {f"doria_e57_{side * side / 1e6:.0f}": ((side, side, "e57"), False) for side in (1000, 2000, 3162, 6325)}
 # A part, the run that has it, and the run that has all but it.
 PARTS = (
     ("Blender itself", "start", None),
@@ -169,35 +166,16 @@ def _print(part, seconds, peaks):
     row(part, *(f"{each:.1f}" for each in seconds), ratio, " -> ".join(f"{peak / 1e6:.0f}" for peak in peaks))
 
 
-def growth(build, names, rounds, record):
-    """How time and memory grow, part by part."""
-    parts = [part for part in PARTS if part[1] != "render"]
-    head("Growth: seconds of the processor", "case", *(part for part, *_ in parts), "whole job", "peak, MB")
-    for name in names:
-        found = measured(name, GROWTH[name], [build], rounds, record)
-        seconds = [_less(found, build.name, run, without) for _, run, without in parts]
-        whole = found[build.name, "whole"]
-        shown = (f"{each:.1f}" for each in (*seconds, whole["processor"]))
-        row(name, *shown, f"{whole['bytes'] / 1e6:.0f}")
-
-
 def main():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.job", description=__doc__.partition("\n")[0])
-    parser.add_argument("base", metavar="BASE", type=Path, nargs="?", help="a checkout of the older build, built")
+    parser.add_argument("base", metavar="BASE", type=Path, help="a checkout of the older build, built")
     parser.add_argument("cases", metavar="CASE", nargs="*", help=f"by default all: {', '.join(CASES)}")
-    parser.add_argument("--growth", action="store_true", help="this build alone, from 1 to 40 megapixels")
     parser.add_argument("--rounds", type=int, default=3, help="runs per figure (3)")
     options = parser.parse_args()
     FOLDER.mkdir(parents=True, exist_ok=True)
     own = Build("now", ROOT)
     own.install()
     record = Record(FOLDER / f"runs-{own.commit}.jsonl")
-    if options.growth:
-        names = [*filter(None, [options.base and str(options.base)]), *options.cases] or GROWTH
-        growth(own, names, options.rounds, record)
-        return
-    if options.base is None:
-        parser.error("give a checkout of the older build, or --growth")
     base = Build("before", options.base)
     base.install()
     compare([base, own], options.cases or CASES, options.rounds, record)

@@ -1,34 +1,28 @@
-"""How fast scans are read, beside the libraries' own readers, and how that grows: python -m benchmarks.reading
+"""How fast scans are read, beside the libraries' own readers: python -m benchmarks.reading
 
     python -m benchmarks.reading                              PTX beside numpy.loadtxt, E57 beside pye57
-    python -m benchmarks.reading --growth [MEGAPIXELS ...]    E57 from 1 to 40 megapixels
     python -m benchmarks.reading --before CHECKOUT            E57 beside an earlier version, checked out elsewhere
 
 Seconds are of the processor, medians. E57 is read by a child process; its seconds are told apart, since a plain reader
-has none. Growth is that of seconds and memory: of reading, and of reading, colorizing from 200 seeds and saving as PLY,
-without Blender, each run a process of its own. What was measured is kept in build/bench-reading/. Linux only.
+has none. How reading grows with the pixels is told by benchmarks.growth. Linux only.
 """
 
 import argparse
-import json
-import multiprocessing
 import resource
 import statistics
 import subprocess
 import sys
-from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 import pye57
 
-from benchmarks import geodesic_cases, run_apart
+from benchmarks import geodesic_cases
 from benchmarks.geodesic_tables import ROOT, head, row
-from reflcolor_addon import Seeds, read_scans
+from reflcolor_addon import read_scans
 from reflcolor_addon.files.writers import write_e57, write_ptx
 
 FOLDER = ROOT / "build" / "bench-reading"
 SIZES = ((760, 1135), (2000, 2000))
-GROWTH = (1, 4, 10, 40)
 _HEADER_LINES, _CHUNK = 10, 200_000
 
 
@@ -131,56 +125,13 @@ def beside_before(checkout, rounds):
         )
 
 
-def job(path):
-    """The arguments of a run that reads, colorizes and saves."""
-    seeds, side = FOLDER / f"{path.stem}.seeds.json", int(path.stem.rpartition("x")[2])
-    if not seeds.is_file():
-        rng = np.random.default_rng(0)
-        rows, cols = np.unique(rng.integers(0, side, (200, 2)), axis=0).T
-        Seeds(rows, cols, rng.integers(0, 256, (len(rows), 3))).save(seeds)
-    return ["reflcolor_addon", "colorize", path, "--seeds", seeds, "-o", FOLDER / "out.ply"]
-
-
-def growth(megapixels, rounds):
-    """Seconds and memory by the pixels of an E57."""
-    record = FOLDER / "growth.json"
-    known = json.loads(record.read_text()) if record.is_file() else {}
-    runs = {
-        "read": lambda path: ["benchmarks.reading", "--one", path],
-        "read, colorize and save": job,
-    }
-    for name, arguments in runs.items():
-        head(name, "megapixels", "seconds", "a pixel, to the first", "peak, MB", "a pixel, to the first")
-        first = None
-        for size in megapixels:
-            side = round((size * 1e6) ** 0.5)
-            # In another process: what starts a command counts as its memory until the command itself begins.
-            with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as maker:
-                path = maker.submit(scan_file, side, side, ".e57").result()
-            command = [sys.executable, "-m", *map(str, arguments(path))]
-            times = known.setdefault(f"{name} {size:g}", [])
-            while len(times) < rounds:
-                times.append(run_apart.measured(command))
-                record.write_text(json.dumps(known))
-            seconds, peak = (statistics.median(each[key] for each in times[:rounds]) for key in ("processor", "bytes"))
-            first = first or (seconds / size, peak / size)
-            shares = (seconds / size / first[0], peak / size / first[1])
-            row(f"{size:g}", f"{seconds:.1f}", f"{shares[0]:.2f}", f"{peak / 1e6:.0f}", f"{shares[1]:.2f}")
-
-
 def main():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.reading", description=__doc__.partition("\n")[0])
-    parser.add_argument("--growth", metavar="MEGAPIXELS", type=float, nargs="*", help=f"by default {GROWTH}")
     parser.add_argument("--before", metavar="CHECKOUT", help="an earlier version")
-    parser.add_argument("--one", metavar="FILE", help="read one file, for the growth")
     parser.add_argument("--rounds", type=int, default=5, help="runs per figure (5)")
     options = parser.parse_args()
-    if options.one:
-        read_scans(options.one)
-    elif options.before:
+    if options.before:
         beside_before(options.before, options.rounds)
-    elif options.growth is not None:
-        growth(options.growth or GROWTH, options.rounds)
     else:
         beside_loadtxt(options.rounds)
         beside_pye57(options.rounds)

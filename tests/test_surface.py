@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from colored_scans import colored_turn, colored_wall, surface_of
 
-from reflcolor_addon.scan import surface as surface_module
+from reflcolor_addon.scan import grid_mesh as grid_module
 from reflcolor_addon.scan.grid_mesh import grid_mesh
 
 
 @pytest.fixture(params=[1 << 18, 20], ids=["one strip", "strips of a row or two"])
 def strips(request, monkeypatch):
     """Both ways to cut a scan; a result must not depend on it."""
-    monkeypatch.setattr(surface_module, "STRIP_PIXELS", request.param)
+    monkeypatch.setattr(grid_module, "_STRIP_PIXELS", request.param)
 
 
 @pytest.mark.usefixtures("strips")

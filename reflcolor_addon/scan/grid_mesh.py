@@ -5,8 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 MAX_INCIDENCE_DEG = 88.0
-STRIP_PIXELS = 1 << 18
-"""Pixels processed at a time, so that a large scan needs no further array of doubles."""
+_STRIP_PIXELS = 1 << 18
+
+
+def row_strips(height, width):
+    """Return slices of the rows of a grid, to be processed one after the other, so that a large scan needs no further
+    array of doubles."""
+    step = max(1, _STRIP_PIXELS // max(1, width))
+    return [slice(top, min(top + step, height)) for top in range(0, height, step)]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -86,13 +92,12 @@ def face_mask(scan, max_incidence_deg=MAX_INCIDENCE_DEG):
     # A full turn gets its first column once more at the right.
     columns = np.arange(width + 1) % width if scan.full_turn else slice(None)
     mask = np.zeros((max(height - 1, 0), width - (not scan.full_turn)), bool)
-    step = max(1, STRIP_PIXELS // width)
-    for top in range(0, height - 1, step):
-        strip = slice(top, min(top + step, height - 1) + 1)
+    for rows in row_strips(height - 1, width):
+        strip = slice(rows.start, rows.stop + 1)
         valid, points = scan.valid[strip, columns], scan.points[strip, columns]
         across = valid[:, :-1] & valid[:, 1:] & ~is_jump(points[:, :-1], points[:, 1:], max_incidence_deg)
         down = valid[:-1] & valid[1:] & ~is_jump(points[:-1], points[1:], max_incidence_deg)
-        mask[top : top + len(valid) - 1] = across[:-1] & across[1:] & down[:, :-1] & down[:, 1:]
+        mask[rows] = across[:-1] & across[1:] & down[:, :-1] & down[:, 1:]
     return mask
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from .georeference import local_center
-from .grid_mesh import CORNERS, MAX_INCIDENCE_DEG, STRIP_PIXELS, face_mask, quads_of
+from .grid_mesh import CORNERS, MAX_INCIDENCE_DEG, face_mask, quads_of, row_strips
 from .scan import Scan
 
 
@@ -117,19 +117,19 @@ class ScanSurface:
     def vertex_blocks(self):
         """Yield a VertexBlock of every strip of the grid."""
         height, width = self.scan.shape
-        for strip in self._strips(height):
+        for strip in row_strips(height, width):
             yield self._vertex_block(strip, slice(None))
         if self._split:
             yield self._vertex_block(slice(0, height), slice(0, 1), width)
 
     def face_blocks(self):
         """Yield (F, 4) int32 vertices of the faces of every strip, counterclockwise as seen from the scanner."""
-        for strip in self._strips(len(self._mask)):
+        for strip in row_strips(len(self._mask), self.shape[1]):
             yield quads_of(self._mask[strip], self._closed_vertices(slice(strip.start, strip.stop + 1)))
 
     def triangle_blocks(self):
         """Yield (2 F, 3) int32, each face of `face_blocks` cut along the shorter of its diagonals."""
-        for strip, quads in zip(self._strips(len(self._mask)), self.face_blocks(), strict=True):
+        for strip, quads in zip(row_strips(len(self._mask), self.shape[1]), self.face_blocks(), strict=True):
             mask = self._mask[strip]
             a, b, c, d = self._corners(mask, strip.start)
             first, second = _squares(c - a)[mask], _squares(d - b)[mask]
@@ -140,7 +140,7 @@ class ScanSurface:
 
     def loose_blocks(self):
         """Yield (N,) int32, the vertices that are in no face, of every strip."""
-        for strip in self._strips(self.scan.shape[0]):
+        for strip in row_strips(*self.shape):
             yield self._vertices(strip)[self.scan.valid[strip] & ~self._in_faces(strip)]
 
     def normal_blocks(self):
@@ -149,7 +149,7 @@ class ScanSurface:
         They are the means of the adjoining faces' normals, weighted by area. A vertex in no face looks at the scanner.
         """
         scan, seam = self.scan, []
-        for strip in self._strips(scan.shape[0]):
+        for strip in row_strips(*self.shape):
             sums, valid = self._normals(strip).astype(np.float64), scan.valid[strip]
             # Points at the scanner itself have no direction.
             towards = np.where(_squares(scan.points[strip])[..., None] > 0, -scan.points[strip], [0.0, 0.0, 1.0])
@@ -170,10 +170,6 @@ class ScanSurface:
         values |= {"range": np.sqrt(_squares(points)).astype(np.float32), "grid_row": row, "grid_col": col}
         uv = np.stack([(col + (cols_to_the_right + 0.5)) / width, (row + 0.5) / height], axis=1).astype(np.float32)
         return VertexBlock(points=points, rgb=self._rgb[place][valid], values=values, uv=uv)
-
-    def _strips(self, height):
-        step = max(1, STRIP_PIXELS // self.scan.shape[1])
-        return [slice(top, min(top + step, height)) for top in range(0, height, step)]
 
     def _vertices(self, rows):
         """(h, W) int32 index of each pixel's vertex; anything where there is none."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..scan.grid_mesh import MAX_INCIDENCE_DEG, is_jump
+from ..scan.grid_mesh import MAX_INCIDENCE_DEG, is_jump, row_strips
 
 # A mixed return is at least this share of the jump away from either surface.
 _LEAST_SHARE = 0.12
@@ -27,17 +27,29 @@ def mixed_pixels(scan, max_incidence_deg=MAX_INCIDENCE_DEG):
     -------
     (H, W) bool
     """
-    height, width = scan.shape
+    mixed = np.empty(scan.shape, bool)
+    for rows in row_strips(*scan.shape):
+        mixed[rows] = _of_strip(scan, rows.start, rows.stop, max_incidence_deg)
+    return mixed
+
+
+def _of_strip(scan, top, bottom, max_incidence_deg):
+    """The same for the rows from ``top`` to ``bottom``."""
+    height, width = bottom - top, scan.shape[1]
+    # A strip sees two rows beyond its ends, so that strips leave no seam.
+    first, last = max(0, top - 2), min(scan.shape[0], bottom + 2)
+    inside = np.s_[2 - (top - first) : 2 + height + (last - bottom), 2:-2]
+    valid = scan.valid[first:last]
     # Along a row, the inverse range of a plane is a straight line; two pixels beyond each edge are unknown.
     inverse = np.full((height + 4, width + 4), np.nan)
     with np.errstate(divide="ignore"):
-        inverse[2:-2, 2:-2] = np.where(scan.valid, 1 / scan.range, np.nan)
+        inverse[inside] = np.where(valid, 1 / scan.range[first:last], np.nan)
     points = np.full((height + 4, width + 4, 3), np.nan)
-    points[2:-2, 2:-2] = np.where(scan.valid[..., None], scan.points, np.nan)
+    points[inside] = np.where(valid[..., None], scan.points[first:last], np.nan)
     if scan.full_turn:
         for grid in (inverse, points):
             grid[:, :2], grid[:, -2:] = grid[:, -4:-2].copy(), grid[:, 2:4].copy()
-    mixed = np.zeros(scan.shape, bool)
+    mixed = np.zeros((height, width), bool)
     for down, right in _WAYS:
 
         def at(grid, steps, down=down, right=right):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..scan.grid_mesh import row_strips
 from .outlines import DOWN, RIGHT, STEPS
 from .small_holes import nearest_kept
 
@@ -11,10 +12,9 @@ _STEP_WINDOW = 31
 
 def pixel_directions(scan):
     """Return (H, W, 3) float64 unit vectors; where there is no return, on from the nearest one by the usual step."""
-    import cv2
-
     known, width = scan.valid, scan.shape[1]
-    rays = np.where(known[..., None], scan.points / np.where(known, scan.range, 1)[..., None], 0)
+    # Points without a return are zeros.
+    rays = scan.points / np.where(known, scan.range, 1)[..., None]
     rows, cols = np.nonzero(~known)
     source = nearest_kept(known)[rows, cols]
     lost = rays.reshape(-1, 3)[source]
@@ -24,18 +24,33 @@ def pixel_directions(scan):
             both[-1] = False
         elif not scan.full_turn:
             both[:, -1] = False
-        step = _beside(rays, way)
-        step -= rays
-        step[~both] = 0
-        usual = step.sum(axis=(0, 1)) / max(both.sum(), 1)
-        window = (_STEP_WINDOW, _STEP_WINDOW)
-        sums = cv2.blur(np.dstack([step, both]), window, borderType=cv2.BORDER_REPLICATE).reshape(-1, 4)[source]
-        near = sums[:, 3:] > 1e-9
-        mean = np.where(near, sums[:, :3] / np.where(near, sums[:, 3:], 1), usual)
-        lost = lost + mean * offset[:, None]
+        lost = lost + _steps(rays, both, way, source) * offset[:, None]
     rays[rows, cols] = lost
-    rays /= np.maximum(np.linalg.norm(rays, axis=-1, keepdims=True), 1e-12)
+    for strip in row_strips(*scan.shape):
+        rays[strip] /= np.maximum(np.linalg.norm(rays[strip], axis=-1, keepdims=True), 1e-12)
     return rays
+
+
+def _steps(rays, both, way, source):
+    """(N, 3): the mean step to the next pixel that way around each of N pixels; where none is near, the usual one."""
+    share = _mean_around(both.astype(np.float64), source)
+    near, pairs = share > 1e-9, max(both.sum(), 1)
+    found = np.empty((len(source), 3))
+    for axis in range(3):
+        step = _beside(rays[..., axis], way)
+        step -= rays[..., axis]
+        step[~both] = 0
+        mean, sums = _mean_around(step, source), np.cumsum(step, out=step.reshape(-1))
+        found[:, axis] = np.where(near, mean / np.where(near, share, 1), sums[-1] / pairs)
+    return found
+
+
+def _mean_around(grid, pixels):
+    """(N,): the mean of an (H, W) grid in a window around each of some pixels."""
+    import cv2
+
+    window = (_STEP_WINDOW, _STEP_WINDOW)
+    return cv2.blur(grid, window, borderType=cv2.BORDER_REPLICATE).reshape(-1)[pixels]
 
 
 def _beside(grid, way):

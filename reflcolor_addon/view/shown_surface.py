@@ -6,7 +6,7 @@ import numpy as np
 
 from ..errors import Cancelled
 from ..messages import Message
-from ..scan.grid_mesh import MAX_INCIDENCE_DEG, is_jump
+from ..scan.grid_mesh import MAX_INCIDENCE_DEG, is_jump, row_strips
 from .mixed_pixels import mixed_pixels
 from .outlines import CORNERS, DOWN, RIGHT, STEPS, outline_shares, square_polygons
 from .pixel_directions import pixel_directions
@@ -147,30 +147,44 @@ class _Grid:
         return inside
 
     def _measured_joints(self, points, max_incidence_deg):
-        return [
-            self.kept
-            & self._beside(self.kept, way)
-            & self._inside(way)
-            & ~is_jump(points, self._beside(points, way), max_incidence_deg)
-            for way in (RIGHT, DOWN)
-        ]
+        joined = [self.kept & self._beside(self.kept, way) & self._inside(way) for way in (RIGHT, DOWN)]
+        for rows in row_strips(self.height, self.width):
+            here, below = points[rows], points[rows.start + 1 : rows.stop + 1]
+            joined[RIGHT][rows] &= ~is_jump(here, np.roll(here, -1, axis=1), max_incidence_deg)
+            joined[DOWN][rows][: len(below)] &= ~is_jump(here[: len(below)], below, max_incidence_deg)
+        return joined
 
     def _surfaces(self, joined):
         """Number the surfaces: pixels that joints connect; a hole is of the surface that is nearest to it."""
-        from scipy.sparse import coo_array
-        from scipy.sparse.csgraph import connected_components
+        import cv2
 
-        places = np.arange(self.kept.size).reshape(self.kept.shape)
-        starts = np.concatenate([places[joint] for joint in joined])
-        beside = (self._beside(places, way) for way in (RIGHT, DOWN))
-        ends = np.concatenate([place[joint] for place, joint in zip(beside, joined, strict=True)])
-        graph = coo_array((np.ones(len(starts), bool), (starts, ends)), shape=(places.size, places.size))
-        _, labels = connected_components(graph, directed=False)
-        return np.where(self.there, labels[self.nearest], -1)
+        # An image of pixels with the joints between them.
+        image = np.zeros((2 * self.height, 2 * self.width), np.uint8)
+        image[::2, ::2] = self.kept
+        image[::2, 1::2], image[1::2, ::2] = joined
+        _, labels = cv2.connectedComponents(image, connectivity=4)
+        seam = joined[RIGHT][:, -1]
+        labels = labels[::2, ::2].copy()
+        labels = _merged(labels, labels[seam, -1], labels[seam, 0])
+        return np.where(self.there, labels.ravel()[self.nearest], np.int32(-1))
 
     def _alike(self, way):
         """Where a pixel and its neighbor are shown, and on the same surface."""
         return self.there & self._beside(self.there, way) & (self.surface == self._beside(self.surface, way))
+
+
+def _merged(labels, some, others):
+    """(H, W) int32 labels of which some pairs are made one."""
+    if not len(some):
+        return labels
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    count = labels.max() + 1
+    _, one = connected_components(
+        coo_array((np.ones(len(some), bool), (some, others)), shape=(count, count)), directed=False
+    )
+    return one.astype(np.int32)[labels]
 
 
 class _Polygons:
