@@ -2,12 +2,14 @@
 
     python -m benchmarks.reading                              PTX beside numpy.loadtxt, E57 beside pye57
     python -m benchmarks.reading --before CHECKOUT            E57 beside an earlier version, checked out elsewhere
+    python -m benchmarks.reading --memory                     bytes a pixel of the formats that are read in columns
 
 Seconds are of the processor, medians. E57 is read by a child process; its seconds are told apart, since a plain reader
 has none. How reading grows with the pixels is told by benchmarks.growth. Linux only.
 """
 
 import argparse
+import json
 import resource
 import statistics
 import subprocess
@@ -18,9 +20,12 @@ import pye57
 
 from benchmarks import geodesic_cases
 from benchmarks.geodesic_tables import ROOT, head, row
-from reflcolor_addon import read_scans
-from reflcolor_addon.files.writers import write_e57, write_ptx
+from reflcolor_addon import ScanSurface, read_scans
+from reflcolor_addon.files.readers.las import imported_laspy
+from reflcolor_addon.files.writers import write_e57, write_ply, write_ptx
 
+# Of the scans whose memory is compared.
+SIDES = (700, 1400)
 FOLDER = ROOT / "build" / "bench-reading"
 SIZES = ((760, 1135), (2000, 2000))
 _HEADER_LINES, _CHUNK = 10, 200_000
@@ -28,7 +33,6 @@ _HEADER_LINES, _CHUNK = 10, 200_000
 
 def scan_file(rows, columns, suffix):
     """The scan `doria`, enlarged, as a file; made when first asked for."""
-    FOLDER.mkdir(parents=True, exist_ok=True)
     path = FOLDER / f"doria_{rows}x{columns}{suffix}"
     if not path.is_file():
         write = write_ptx if suffix == ".ptx" else write_e57
@@ -125,12 +129,92 @@ def beside_before(checkout, rounds):
         )
 
 
+READ_ONCE = """
+import json, resource, sys
+sys.path.insert(0, sys.argv[1])
+from reflcolor_addon.files.readers import ReadOptions, cloud, read_scans
+asked = []
+cloud.require_memory = lambda needed, *_, **__: asked.append(needed)
+(scan,) = read_scans(sys.argv[2], options=ReadOptions(grid=sys.argv[3]))
+assert scan.valid.mean() > 0.9
+print(json.dumps([max(asked), 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss]))
+"""
+
+
+def in_columns(path, form):
+    """Write the scan `doria`, enlarged, as a file of columns, with rows and columns, intensity and colors."""
+    scan = geodesic_cases.whole_scan("doria", 1, (SIDES[int("large" in path.stem)],) * 2)
+    rows, cols = np.indices(scan.shape)
+    points = np.where(scan.valid[..., None], scan.points, np.nan).reshape(-1, 3)
+    strength, colors = scan.reflectance.ravel(), scan.color.reshape(-1, 3)
+    if form == "PLY":
+        write_ply([ScanSurface(scan, scan.color)], path)
+    elif form in ("LAS", "LAZ"):
+        laspy = imported_laspy()
+        there = scan.valid.ravel()
+        header = laspy.LasHeader(version="1.4", point_format=7)
+        header.scales = np.full(3, 1e-6)
+        for name in ("grid_row", "grid_col"):
+            header.add_extra_dim(laspy.ExtraBytesParams(name=name, type=np.int32))
+        cloud = laspy.LasData(header)
+        cloud.x, cloud.y, cloud.z = points[there].T
+        cloud.intensity = np.rint(strength[there] * 100).astype(np.uint16)
+        cloud.red, cloud.green, cloud.blue = colors[there].T.astype(np.uint16) * 257
+        cloud["grid_row"], cloud["grid_col"] = rows.ravel()[there], cols.ravel()[there]
+        cloud.write(path)
+    else:
+        packed = (colors.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)).astype(np.uint32)
+        record = np.dtype([(axis, "<f4") for axis in "xyz"] + [("intensity", "<f4"), ("rgb", "<u4")])
+        table = np.empty(len(points), record)
+        for name, values in zip(record.names, (*points.T, strength, packed), strict=True):
+            table[name] = values
+        height, width = scan.shape
+        head = (
+            f"VERSION .7\nFIELDS x y z intensity rgb\nSIZE 4 4 4 4 4\nTYPE F F F F U\nCOUNT 1 1 1 1 1\nWIDTH {width}\n"
+        )
+        kind = form.partition(", ")[2]
+        head += f"HEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {len(table)}\nDATA {kind}\n"
+        if kind == "binary":
+            data = table.tobytes()
+        elif kind == "ascii":
+            data = "\n".join(" ".join(map(str, row)) for row in table.tolist()).encode()
+        else:
+            # LZF of literal pieces alone: nothing is compressed.
+            flat = b"".join(table[name].tobytes() for name in record.names)
+            pieces = [flat[at : at + 32] for at in range(0, len(flat), 32)]
+            packed = b"".join(bytes([len(piece) - 1]) + piece for piece in pieces)
+            data = np.array([len(packed), len(flat)], "<u4").tobytes() + packed
+        path.write_bytes(head.encode() + data)
+
+
+def memory():
+    """What reading takes for each pixel, and what was asked for before."""
+    head("Bytes a pixel", "format", "taken", "asked for before", "taken / asked for")
+    forms = ("PCD, binary", "PCD, ascii", "PCD, binary_compressed", "PLY", "LAS", "LAZ")
+    for form, grid in (*((form, "stored") for form in forms), ("LAS", "angle")):
+        found = []
+        for size in ("small", "large"):
+            path = FOLDER / f"{form.replace(', ', '_')}_{size}.{form[:3].lower()}"
+            if not path.is_file():
+                in_columns(path, form)
+            line = [sys.executable, "-P", "-c", READ_ONCE, str(ROOT), str(path), grid]
+            found.append(json.loads(subprocess.run(line, check=True, capture_output=True, text=True).stdout))
+        more = SIDES[1] ** 2 - SIDES[0] ** 2
+        asked, taken = ((large - small) / more for small, large in zip(*found, strict=True))
+        name = form if grid == "stored" else f"{form}, by angle"
+        row(name, f"{taken:.0f}", f"{asked:.0f}", f"{taken / asked:.2f}")
+
+
 def main():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.reading", description=__doc__.partition("\n")[0])
     parser.add_argument("--before", metavar="CHECKOUT", help="an earlier version")
+    parser.add_argument("--memory", action="store_true", help="memory instead of time, of PCD, PLY, LAS and LAZ")
     parser.add_argument("--rounds", type=int, default=5, help="runs per figure (5)")
     options = parser.parse_args()
-    if options.before:
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    if options.memory:
+        memory()
+    elif options.before:
         beside_before(options.before, options.rounds)
     else:
         beside_loadtxt(options.rounds)

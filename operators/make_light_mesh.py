@@ -61,7 +61,7 @@ class REFLCOLOR_OT_make_light_mesh(JobOperator, bpy.types.Operator):
 
         def work(progress, cancelled):
             scan = read()
-            require_light_mesh(scan)
+            require_light_mesh(scan, faces)
             scan = replace(scan, name=f"{name} Light", pose=shifted(scan.pose, shift))
             light = light_mesh(scan, faces, decimate, **options, progress=progress, cancelled=cancelled)
             return light, None if own_image else packed_pixels(grid_texture(scan, shown_rgb), name)

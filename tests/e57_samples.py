@@ -8,6 +8,10 @@ import numpy as np
 _PAGE, _PAYLOAD = 1024, 1020
 
 
+class Records(dict):
+    """Records beside the points: (N,) arrays of doubles by name, or dicts of them for structures."""
+
+
 def write_e57(path, *scans, images=()):
     """Write an E57 file.
 
@@ -16,15 +20,30 @@ def write_e57(path, *scans, images=()):
     path : path-like
     *scans : dict
         `fields`: name to (N,) array, floats stored as doubles, whole numbers as integers; the other keys become
-        children of the scan: dicts structures, texts strings, numbers as `fields` are.
+        children of the scan: dicts structures, `Records` records, texts strings, numbers as `fields` are.
     images : sequence of dict
         Photos inside: what becomes the children of each, bytes blobs.
     """
     from pye57 import libe57
 
-    file, blobs = libe57.ImageFile(str(path), "w"), []
+    file, blobs, records = libe57.ImageFile(str(path), "w"), [], []
+
+    def prototype_of(fields, above=""):
+        prototype, columns = libe57.StructureNode(file), {}
+        for name, values in fields.items():
+            if isinstance(values, dict):
+                node, inside = prototype_of(values, f"{above}{name}/")
+                columns |= inside
+            else:
+                node, columns[f"{above}{name}"] = libe57.FloatNode(file, 0.0), np.array(values, np.float64)
+            prototype.set(name, node)
+        return prototype, columns
 
     def node_of(value):
+        if isinstance(value, Records):
+            prototype, columns = prototype_of(value)
+            records.append((libe57.CompressedVectorNode(file, prototype, libe57.VectorNode(file, True)), columns))
+            return records[-1][0]
         if isinstance(value, dict):
             node = libe57.StructureNode(file)
             for name, child in value.items():
@@ -72,6 +91,13 @@ def write_e57(path, *scans, images=()):
         root.set("images2D", images2d)
         for image in images:
             images2d.append(node_of(image))
+    for node, columns in records:
+        buffers = libe57.VectorSourceDestBuffer()
+        for name, values in columns.items():
+            buffers.append(libe57.SourceDestBuffer(file, name, values, len(values), True, True))
+        writer = node.writer(buffers)
+        writer.write(len(values))
+        writer.close()
     for blob, data in blobs:
         blob.write(np.frombuffer(data, np.uint8), 0, len(data))
     file.close()

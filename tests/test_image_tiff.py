@@ -283,3 +283,22 @@ def test_a_tiff_that_is_cut_or_changed_anywhere_never_leaves_the_error_family(tm
                     read(path)
                 except ImageError as error:
                     assert str(error).isprintable()
+
+
+@pytest.mark.parametrize("read", [read_image, read_measured])
+@pytest.mark.parametrize("options", [{}, {"bigtiff": True}, {"compression": "zlib"}])
+def test_of_several_pictures_the_first_is_read_and_that_is_told(tmp_path, read, options):
+    pages = RNG.integers(1, 255, (3, *SHAPE)).astype(np.uint8)
+    path, warnings = written(tmp_path, pages, photometric="minisblack", **options), []
+    found = read(path, warnings)
+    np.testing.assert_array_equal(found[..., 0] if read is read_image else found[0], pages[0])
+    assert list(map(str, warnings)) == ["a.tif: holds 3 pictures; the first was read"]
+
+
+def test_a_small_copy_behind_a_picture_is_no_other_picture(tmp_path):
+    path, warnings = tmp_path / "a.tif", []
+    with tifffile.TiffWriter(path) as file:
+        file.write(np.zeros(SHAPE, np.uint8))
+        file.write(np.zeros((9, 13), np.uint8), subfiletype=1)
+    read_image(path, warnings)
+    assert not warnings

@@ -99,6 +99,23 @@ def test_where_faces_are_merged_a_circle_around_the_scanner_is_not_straight():
     assert np.abs(row - chord)[:, 2].max() == pytest.approx(expected, rel=0.1)
 
 
+@pytest.mark.parametrize("shape", [(20, 48), (21, 50)])
+def test_of_a_very_large_scan_every_nth_row_and_column_is_taken_and_its_whole_image_lies_on_it(monkeypatch, shape):
+    monkeypatch.setattr("reflcolor_addon.view.thinned_scan.MOST_PIXELS", 110)
+    scan, _ = colored_turn(shape)
+    light = light_mesh(scan, 10, untouched, filled=False)
+    # 960 and 1,050 pixels: every 3rd and every 4th.
+    step = {960: 3, 1050: 4}[scan.valid.size]
+    row, col = np.divmod(light.pixel, shape[1])
+    assert light.scan is scan and not (row % step).any() and not (col % step).any()
+    np.testing.assert_allclose(light.places[: light.own], np.stack([row, col], axis=1)[: light.own], atol=1e-4)
+    np.testing.assert_allclose(light.points, scan.points.reshape(-1, 3)[light.pixel], rtol=1e-5)
+    # The seam is closed, and the image goes on to its right edge there.
+    np.testing.assert_allclose(light.places[light.own :, 1], shape[1], atol=1e-4)
+    assert len(light.points) - light.own == -(-shape[0] // step)
+    assert light.whole == 2 * (shape[0] - 1) * shape[1]
+
+
 def test_what_has_no_return_gives_no_numbers():
     valid = np.ones(SHAPE, bool)
     valid[8:11, 12:15] = valid[2, 3] = False

@@ -71,7 +71,7 @@ def test_what_several_scans_hold_together_counts(free):
     with pytest.raises(ReflcolorError, match=r"a\.e57: making meshes needs about"):
         memory.require_objects([job.scan for job in jobs], Path("a.e57"))
     with pytest.raises(ReflcolorError, match=r"making the mesh lighter needs about"):
-        memory.require_light_mesh(jobs[0].scan)
+        memory.require_light_mesh(jobs[0].scan, 100)
 
 
 @pytest.mark.parametrize("suffix", [".png", ".jpg", ".tif", ".webp", ".bmp"])

@@ -25,6 +25,9 @@ _GATE = {
         "ein Teil des Pfads ist kein Ordner; die Schreibweise prüfen"
     ),
     "close other programs": "andere Programme schließen",
+    "files may not be larger here: raise the limit (ulimit -f), or choose another disk": (
+        "Dateien dürfen hier nicht größer sein: die Grenze anheben (ulimit -f) oder einen anderen Datenträger wählen"
+    ),
     "ask its owner for the right to read it": "den Besitzer um das Recht bitten, sie zu lesen",
     "copy it to another folder, and name the copy": "sie in einen anderen Ordner kopieren und die Kopie nennen",
     "{file}: is too large, expected {expected}": "{file}: ist zu groß, erwartet {expected}",
@@ -115,6 +118,7 @@ _IMAGES = {
     "{file}: its color profile{name} consists of tables, which are not supported; its colors are taken as sRGB": (
         "{file}: das Farbprofil{name} besteht aus Tabellen, die nicht unterstützt werden; die Farben gelten als sRGB"
     ),
+    "{file}: holds {count} pictures; the first was read": ("{file}: enthält {count} Bilder; das erste wurde gelesen"),
     "{file}: its color channels differ, expected a gray image with one value per pixel": (
         "{file}: die Farbkanäle sind verschieden, erwartet ein graues Bild mit einem Wert je Pixel"
     ),

@@ -161,6 +161,7 @@ _PAIRS = {
     ),
     "range: {image}, {bits} bits": "Entfernung: {image}, {bits} Bit",
     "reflectance: {image}": "Reflektanz: {image}",
+    "color: {image}": "Farbe: {image}",
     "8 bits do not give their scale; {most:g} m is a guess for the brightest value: give a scale, or a table": (
         "8 Bit sagen nichts über ihren Maßstab; {most:g} m für den hellsten Wert sind geraten: einen Maßstab oder eine "
         "Tabelle angeben"

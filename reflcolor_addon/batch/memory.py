@@ -7,6 +7,7 @@ from ..errors import ReflcolorError
 from ..files.images import image_size
 from ..files.memory import available_bytes, readable
 from ..messages import Message
+from ..view.thinned_scan import thinning_step
 from .plan import MESH, RENDER, SCANS, SCENE
 
 # Peak bytes of each step, in addition to the loaded scans; docs/reliability.md describes how they were measured. For
@@ -44,7 +45,9 @@ def require_run(plan, jobs):
         if plan.colors is None:
             steps[Message("colorizing")] = kept + max(_colorizing(job, plan.settings) for job in jobs)
         if plan.needs_light_mesh:
-            steps[Message("making the mesh lighter")] = kept + _LIGHT_MESH * max(pixels)
+            steps[Message("making the mesh lighter")] = kept + max(
+                bytes_of_light_mesh(job.opened().shape, plan.faces) for job in jobs
+            )
         for output in plan.outputs:
             if plan.faces is not None and output.has_mesh:
                 continue
@@ -63,9 +66,15 @@ def require_objects(scans, path):
     _require({Message("making meshes"): _WRITING[SCENE] * sum(scan.valid.size for scan in scans)}, path.name)
 
 
-def require_light_mesh(scan):
+def require_light_mesh(scan, faces):
     """The same for making the mesh of a Scan lighter."""
-    _require({Message("making the mesh lighter"): _LIGHT_MESH * scan.valid.size}, scan.name)
+    _require({Message("making the mesh lighter"): bytes_of_light_mesh(scan.shape, faces)}, scan.name)
+
+
+def bytes_of_light_mesh(shape, faces):
+    """What making a mesh of so many faces takes at its worst moment."""
+    height, width = shape
+    return _LIGHT_MESH * height * width / thinning_step(shape, faces) ** 2
 
 
 def bytes_of_matching(jobs, photos):

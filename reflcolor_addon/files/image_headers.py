@@ -34,6 +34,8 @@ class ImageHeader:
         Of a PNG.
     layout : TiffLayout or None
         Of a TIFF that is taken apart here; None for one that OpenCV decodes.
+    pictures : int
+        As in `TiffLayout`.
     """
 
     kind: str
@@ -42,6 +44,7 @@ class ImageHeader:
     pixel_bytes: int
     has_alpha: bool = False
     layout: TiffLayout | None = None
+    pictures: int = 1
 
 
 def image_header(data, name):
@@ -145,8 +148,9 @@ def _bmp(data, _name):
 def _tiff(data, name):
     layout = tiff_layout(data, name)
     if layout.dtype is None:
-        return ImageHeader(TIFF, layout.width, layout.height, 4)
-    return ImageHeader(TIFF, layout.width, layout.height, layout.samples * layout.dtype.itemsize, layout=layout)
+        return ImageHeader(TIFF, layout.width, layout.height, 4, pictures=layout.pictures)
+    size = layout.samples * layout.dtype.itemsize
+    return ImageHeader(TIFF, layout.width, layout.height, size, layout=layout, pictures=layout.pictures)
 
 
 _HEADERS = {PNG: _png, JPEG: _jpeg, TIFF: _tiff, WEBP: _webp, BMP: _bmp}

@@ -34,8 +34,8 @@ def read_image(path, warnings=None, *, cancelled=None):
         floating-point colors (EXR, float TIFF) are sRGB encoded. Colors in another space (Display P3, Adobe RGB) are
         converted, if the file's ICC profile is one of a matrix and curves.
     warnings : list, optional
-        Gets a `Message` where a profile cannot be followed, so that the colors are taken as sRGB, and where parts of
-        the picture are damaged.
+        Gets a `Message` where a profile cannot be followed, so that the colors are taken as sRGB, where parts of the
+        picture are damaged, and where the file holds more pictures than the one that is read.
 
     Returns
     -------
@@ -56,6 +56,7 @@ def image_of(data, name, warnings=None):
     if header is None:
         return _srgb_of_light(_color_of_exr(exr_channels(data, name), name))
     values, alpha = _pixels(data, header, name, [] if warnings is None else warnings)
+    _tell_pictures(header, name, warnings)
     rgb = _eight_bit_colors(values, name)
     if alpha is not None:
         rgb[alpha == 0] = 0
@@ -125,6 +126,11 @@ def _pixels(data, header, name, warnings=None):
     return cv2.cvtColor(image, cv2.COLOR_BGR2RGB, dst=image), None
 
 
+def _tell_pictures(header, name, warnings):
+    if header.pictures > 1 and warnings is not None:
+        warnings.append(Message("{file}: holds {count} pictures; the first was read", file=name, count=header.pictures))
+
+
 def _eight_bit_colors(values, name):
     """(H, W, 3) uint8 of colors of any kind; floating point is linear light."""
     if values.ndim == 2:
@@ -163,12 +169,14 @@ def eight_bits(pixels):
     return rgb
 
 
-def read_measured(path, *, cancelled=None):
+def read_measured(path, warnings=None, *, cancelled=None):
     """Read an image whose pixels are measurements: range, reflectance, infrared.
 
     Parameters
     ----------
     path : path-like
+    warnings : list, optional
+        Gets a `Message` where the file holds more pictures than the one that is read.
 
     Returns
     -------
@@ -192,6 +200,7 @@ def read_measured(path, *, cancelled=None):
         values, alpha = _pixels(data, header, name)
     else:
         values, alpha = _decoded(data, cv2.IMREAD_UNCHANGED, name), None
+    _tell_pictures(header, name, warnings)
     opaque = None if alpha is None else alpha != 0
     if values.ndim == 3:
         seen = values if opaque is None else values[opaque]

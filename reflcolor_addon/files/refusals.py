@@ -7,7 +7,9 @@ from ..messages import Message
 
 _NO_ROOM = Message("make room on the disk, or choose another")
 _NO_RIGHT = Message("choose a folder that you may write to")
+_TOO_LARGE = Message("files may not be larger here: raise the limit (ulimit -f), or choose another disk")
 _TO_WRITE = {
+    errno.EFBIG: _TOO_LARGE,
     errno.ENAMETOOLONG: Message("choose a shorter name"),
     errno.ENOSPC: _NO_ROOM,
     getattr(errno, "EDQUOT", errno.ENOSPC): _NO_ROOM,
@@ -18,6 +20,8 @@ _TO_WRITE = {
 _NO_MEMORY = Message("close other programs")
 _NO_RIGHT_TO_READ = Message("ask its owner for the right to read it")
 _TO_READ = {
+    # An E57 is handed over by a file of its points.
+    errno.EFBIG: _TOO_LARGE,
     errno.ENAMETOOLONG: Message("no file has so long a name; check how it is spelled"),
     errno.ENOMEM: _NO_MEMORY,
     errno.ENOSPC: _NO_ROOM,

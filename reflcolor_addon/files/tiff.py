@@ -18,6 +18,8 @@ from ..messages import Message
 SIGNATURES = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _FORMATS = {1: "B", 2: "B", 3: "H", 4: "I", 6: "b", 7: "B", 8: "h", 9: "i", 13: "I", 16: "Q"}
 _MOST_TAGS, _MOST_VALUES = 1000, 1 << 22
+_MOST_PICTURES = 1000
+_KIND_OF_PICTURE, _REDUCED_OR_MASK = 254, 1 | 4
 _NONE, _JPEG, _DEFLATE = 1, 7, (8, 32946)
 _COMPRESSIONS = {1: "none", 5: "LZW", 7: "JPEG", 8: "Deflate", 32773: "PackBits", 32946: "Deflate"}
 _WHITE_IS_ZERO, _BLACK_IS_ZERO, _RGB, _PALETTE, _YCBCR = 0, 1, 2, 3, 6
@@ -49,6 +51,8 @@ class TiffLayout:
         Of a strip.
     places, sizes : tuple of int
         Of the strips or tiles in the file.
+    pictures : int
+        How many the file holds; small copies of them, as for a preview, do not count.
     """
 
     width: int
@@ -67,6 +71,7 @@ class TiffLayout:
     rows: int
     places: tuple[int, ...]
     sizes: tuple[int, ...]
+    pictures: int
 
 
 def is_tiff(start):
@@ -83,14 +88,15 @@ def tiff_layout(data, name):
         In one line, if its tags are damaged, or speak of a kind that is not read.
     """
     try:
-        return _layout(_tags(data), len(data), name)
+        tags, behind = _directory(data, None)
+        return _layout(tags, 1 + _others(data, behind), len(data), name)
     except ImageError:
         raise
     except (struct.error, LookupError, ValueError, OverflowError):
         raise ImageError("{file}: not a whole TIFF: its tags are damaged or cut short", file=name) from None
 
 
-def _layout(tags, file_size, name):
+def _layout(tags, pictures, file_size, name):
     def refuse(found, expected):
         raise ImageError(
             "{file}: is a TIFF with {found}, expected {expected}; save it as PNG, or as a plain TIFF",
@@ -108,7 +114,7 @@ def _layout(tags, file_size, name):
     photometric = tags[262][0]
     formats = set(tags.get(339, (_UNSIGNED,))[:samples])
     extra = tags.get(338, ())
-    if tags.get(254, (0,))[0] & 1:
+    if tags.get(_KIND_OF_PICTURE, (0,))[0] & 1:
         refuse(Message("a reduced image as its first one, as raw photos have"), Message("a developed photo"))
     if not 1 <= samples <= 64 or len(depths) != 1 or len(formats) != 1:
         refuse(Message("samples of several kinds"), Message("the same bits and format for all"))
@@ -174,6 +180,7 @@ def _layout(tags, file_size, name):
         rows=rows,
         places=places,
         sizes=sizes,
+        pictures=pictures,
     )
 
 
@@ -303,12 +310,30 @@ def _gray_tiff(packed, compression, rows, length):
     return struct.pack("<2sHI", b"II", 42, 8 + len(packed)) + packed + struct.pack("<H", len(tags)) + entries + bytes(4)
 
 
-def _tags(data):
-    """Values of every tag of whole numbers of the first picture, by number."""
+def _others(data, at):
+    """How many pictures of full size a file holds from the directory at a place on; as far as they can be read."""
+    count, seen = 0, set()
+    while at and at not in seen and len(seen) < _MOST_PICTURES:
+        seen.add(at)
+        try:
+            tags, at = _directory(data, at)
+        except (struct.error, ValueError, OverflowError):
+            break
+        count += not tags.get(_KIND_OF_PICTURE, (0,))[0] & _REDUCED_OR_MASK
+    return count
+
+
+def _directory(data, at):
+    """Values of every tag of whole numbers of a picture, by number, and the place of the next one's tags or 0.
+
+    ``at`` is the place of its own tags; None for the first picture.
+    """
     order = "<" if data[:2] == b"II" else ">"
     large = struct.unpack_from(f"{order}H", data, 2)[0] == 43
     head, entry, inside = ("Q", "HHQQ", 8) if large else ("H", "HHII", 4)
-    (at,) = struct.unpack_from(f"{order}{'Q' if large else 'I'}", data, 8 if large else 4)
+    link = f"{order}{'Q' if large else 'I'}"
+    if at is None:
+        (at,) = struct.unpack_from(link, data, 8 if large else 4)
     (count,) = struct.unpack_from(order + head, data, at)
     at += struct.calcsize(order + head)
     if count > _MOST_TAGS:
@@ -322,4 +347,6 @@ def _tags(data):
         form = f"{order}{length}{_FORMATS[kind]}"
         place = place + struct.calcsize(order + entry) - inside if struct.calcsize(form) <= inside else value
         tags[tag] = struct.unpack_from(form, data, place)
-    return tags
+    behind = at + count * struct.calcsize(order + entry)
+    # Some writers forget the end of the list.
+    return tags, struct.unpack_from(link, data, behind)[0] if behind + struct.calcsize(link) <= len(data) else 0

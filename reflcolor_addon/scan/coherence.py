@@ -19,6 +19,9 @@ _UNORDERED = 0.8
 _ROUNDS = 3.0
 """A scanner's profile goes around once; a list of the points of a whole grid goes back and forth many times."""
 
+_LINES = 32
+"""Rows, and columns, of which this is asked."""
+
 
 class LineLength:
     """Finds how long the lines are that a list of points was cut from, by a few of the points.
@@ -77,6 +80,24 @@ def is_unordered(points, valid):
         return _goes_back_and_forth(flat[there]) or _apart(flat, there[:-1], there[1:]) > _UNORDERED * any_two
     apart = [_from_neighbor(points, valid, rows, cols) for rows, cols in ((0, 1), (1, 0))]
     return not np.isnan(apart).all() and np.nanmin(apart) > _UNORDERED * any_two
+
+
+def is_cut_anywhere(points, valid):
+    """Return whether rows or columns of a grid go back and forth, as where a list was cut into lines of any length.
+
+    Parameters
+    ----------
+    points : (H, W, 3) float64
+        Measured from the scanner.
+    valid : (H, W) bool
+    """
+    for grid, there in ((points, valid), (points.swapaxes(0, 1), valid.T)):
+        lines = np.flatnonzero(there.any(axis=1))
+        some = lines[:: max(1, len(lines) // _LINES)]
+        back = [_goes_back_and_forth(grid[line][there[line]]) for line in some]
+        if len(back) > 1 and np.median(back) > 0.5:
+            return True
+    return False
 
 
 def _sample(points, valid):

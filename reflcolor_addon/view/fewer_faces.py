@@ -11,11 +11,12 @@ import numpy as np
 
 from ..errors import Cancelled
 from ..messages import Message
-from ..scan.grid_mesh import MAX_INCIDENCE_DEG, grid_mesh
+from ..scan.grid_mesh import MAX_INCIDENCE_DEG, face_mask, grid_mesh
 from ..scan.light_mesh import LightMesh
 from .pixel_directions import pixel_directions
 from .shown_surface import shown_surface
 from .small_holes import nearest_kept
+from .thinned_scan import on_whole_scan, thinned_scan, thinning_step
 
 FEWEST_FACES, MOST_FACES = 100, 100_000_000
 # Shares of the progress.
@@ -39,7 +40,8 @@ def light_mesh(
     """Return the LightMesh of a scan.
 
     Surfaces that are apart stay apart: only vertices that an edge joins are merged. Returns in no face are left out;
-    so are specks that are smaller than the faces.
+    so are specks that are smaller than the faces. Of a very large scan only every n-th row and column is looked at, as
+    `thinning_step` says; an image of its whole grid lies on the mesh all the same.
 
     Parameters
     ----------
@@ -61,6 +63,17 @@ def light_mesh(
     Cancelled
         If ``cancelled()`` returned True.
     """
+    options = {"filled": filled, "drop_mixed": drop_mixed, "max_incidence_deg": max_incidence_deg}
+    options |= {"progress": progress, "cancelled": cancelled}
+    step = thinning_step(scan.shape, faces)
+    if step == 1:
+        return _of_all_faces(scan, faces, decimate, **options)
+    light = _of_all_faces(thinned_scan(scan, step), faces, decimate, **options)
+    return on_whole_scan(light, scan, step, 2 * int(np.count_nonzero(face_mask(scan, max_incidence_deg))))
+
+
+def _of_all_faces(scan, faces, decimate, *, filled, drop_mixed, max_incidence_deg, progress, cancelled):
+    """The LightMesh of every row and column."""
 
     def within(start, end):
         return None if progress is None else lambda done, text: progress(start + (end - start) * done, text)

@@ -150,18 +150,8 @@ class _Copy:
     def _records(self, old, attach, path):
         scan = self._scan_at(path.rstrip("/").rpartition("/")[0]) if path.endswith("/points/") else None
         prototype = self._lib.StructureNode(self._made)
-        fields, old_prototype = [], self._lib.StructureNode(old.prototype())
-        for place in range(old_prototype.childCount()):
-            child = old_prototype.get(place)
-            name, kind = child.elementName(), child.type()
-            if scan is not None and name in (*_COLORS, _INVALID):
-                continue
-            if kind == self._lib.E57_STRING:
-                self._answer({"lost": name[:100]})
-                continue
-            self._copiers[kind](child, lambda node, name=name: prototype.set(name, node), "")
-            single = kind == self._lib.E57_FLOAT and self._lib.FloatNode(child).precision() == self._lib.E57_SINGLE
-            fields.append((name, "q" if kind != self._lib.E57_FLOAT else "f" if single else "d"))
+        old_prototype = self._lib.StructureNode(old.prototype())
+        fields = self._fields(old_prototype, prototype, () if scan is None else (*_COLORS, _INVALID))
         added = () if scan is None else _COLORS + (_INVALID,) * (scan[2] or old_prototype.isDefined(_INVALID))
         for name in added:
             prototype.set(name, self._lib.IntegerNode(self._made, 0, 0, 1 if name == _INVALID else 255))
@@ -173,6 +163,27 @@ class _Copy:
             self._tasks.append(
                 lambda start, share: self._copy_records(old, new, fields, count, scan, added, start, share)
             )
+
+    def _fields(self, old, new, left_out=(), above=""):
+        """Copy the fields of a prototype, or of a structure in it; return the path of each, and its type in memory."""
+        lib, fields = self._lib, []
+        for place in range(old.childCount()):
+            child = old.get(place)
+            name, kind = child.elementName(), child.type()
+            if name in left_out:
+                continue
+            if kind == lib.E57_STRING:
+                self._answer({"lost": name[:100]})
+                continue
+            if kind == lib.E57_STRUCTURE:
+                inside = lib.StructureNode(self._made)
+                new.set(name, inside)
+                fields += self._fields(lib.StructureNode(child), inside, above=f"{above}{name}/")
+                continue
+            self._copiers[kind](child, lambda node, name=name: new.set(name, node), "")
+            single = kind == lib.E57_FLOAT and lib.FloatNode(child).precision() == lib.E57_SINGLE
+            fields.append((f"{above}{name}", "q" if kind != lib.E57_FLOAT else "f" if single else "d"))
+        return fields
 
     def _copy_records(self, old, new, fields, count, scan, added, start, share):
         read, write = self._lib.VectorSourceDestBuffer(), self._lib.VectorSourceDestBuffer()

@@ -157,6 +157,8 @@ def _own_strength(present):
 
 def _bits(node):
     """How many bits of the file a field takes in every record."""
+    if node.kind == "Structure":
+        return sum(map(_bits, node.children))
     if node.kind == "Float":
         return 32 if node.attributes.get("precision") == "single" else 64
     if node.kind == "String":

@@ -192,7 +192,7 @@ def _coordinates(columns):
     valid = (cartesian != 0).any(axis=-1) & states.get(CARTESIAN_STATE, states.get(SPHERICAL_STATE, True))
     if spherical is None:
         return cartesian, valid, 0
-    missing = there & ~valid
+    missing = there & np.isfinite(spherical).all(axis=-1) & ~(valid & np.isfinite(cartesian).all(axis=-1))
     cartesian[missing] = spherical[missing]
     return cartesian, valid | missing, np.count_nonzero(missing)
 

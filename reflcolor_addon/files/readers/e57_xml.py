@@ -234,13 +234,25 @@ class _Parser:
         prototype, codecs = node.child("prototype"), node.child("codecs")
         if prototype is None or prototype.kind != "Structure" or not prototype.children:
             self._refuse("{node} has no prototype, which tells what its records hold", node=node.name)
-        if any(child.kind not in _SCALARS for child in prototype.children):
+        # The bounds of a group of points are a structure; points themselves are plain records.
+        nested = node.name != "points"
+        if not all(child.kind in _SCALARS or (nested and _is_of_scalars(child)) for child in prototype.children):
             self._refuse("{node}: its prototype holds something other than numbers", node=node.name)
         if codecs is not None and codecs.kind != "Vector":
             self._refuse("{node}: its codecs are not a list", node=node.name)
 
     def _refuse(self, template, **values):
         raise ScanError("{file}: {problem}", file=self._file_name, problem=Message(template, **values))
+
+
+def _is_of_scalars(node):
+    """Whether a node is a structure that holds values alone, at any depth."""
+    children = node.children
+    return (
+        node.kind == "Structure"
+        and bool(children)
+        and all(child.kind in _SCALARS or _is_of_scalars(child) for child in children)
+    )
 
 
 def _written(name):

@@ -45,7 +45,8 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     Errors are those of `read_scans`.
     """
     description = check_description(parse_json(file, path, EXPECTED, error=ScanError, most=LARGEST_FILE), path.name)
-    image_of = _Images(path, outside, cancelled)
+    warnings = []
+    image_of = _Images(path, outside, warnings, cancelled)
 
     def report(fraction, file_name):
         if cancelled and cancelled():
@@ -70,7 +71,6 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     )
     valid = np.isfinite(values) & (values != 0 if opaque is None else opaque)
     name = description.name or path.name[: -len(".scan.json")] or path.name
-    warnings = []
 
     def warn(template, **values):
         warnings.append(of_scan(name, template, **values))
@@ -139,7 +139,7 @@ def read_image_pair(file, path, *, options=AS_IT_IS, outside=False, progress=Non
 def image_pair_pixels(file, path, *, options=AS_IT_IS, outside=False):
     """Return the pixels of the scan that a `.scan.json` describes, whose images have one size; see `scan_pixels`."""
     description = check_description(parse_json(file, path, EXPECTED, error=ScanError, most=LARGEST_FILE), path.name)
-    images = _Images(path, outside, None)
+    images = _Images(path, outside, [], None)
     shape = images.size("range", description.range)
     for key in ("reflectance", "color"):
         image = getattr(description, key)
@@ -168,15 +168,15 @@ def full_code(values, valid):
 class _Images:
     """Opens images that a description names; errors are reported with the description's name and key."""
 
-    def __init__(self, path, outside, cancelled):
-        self._path, self._outside, self._cancelled = path, outside, cancelled
+    def __init__(self, path, outside, warnings, cancelled):
+        self._path, self._outside, self._warnings, self._cancelled = path, outside, warnings, cancelled
 
     def __call__(self, key, image, read):
         place, member = self._found(key, image)
         if member is not None:
             return _as_image(array_of(place, member), key, self._path)
         with self._named(key):
-            return read(place, cancelled=self._cancelled)
+            return read(place, self._warnings, cancelled=self._cancelled)
 
     def size(self, key, image):
         """Rows and columns, as the file's header says them."""

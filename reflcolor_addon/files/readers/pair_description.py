@@ -161,8 +161,10 @@ def previewed(pair):
     said = [
         Message("range: {image}, {bits} bits", image=range_image.name, bits=8 * values.dtype.itemsize),
         Message("reflectance: {image}", image=reflectance_image.name),
-        _sensor_said(model),
     ]
+    if color_image is not None:
+        said.append(Message("color: {image}", image=color_image.name))
+    said.append(_sensor_said(model))
     size, doubts = _looked_at(content, values, there)
     if values.dtype == np.uint8 and pair.range_scale is None and pair.range_table is None:
         guess = (

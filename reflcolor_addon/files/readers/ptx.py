@@ -16,8 +16,7 @@ from .formats import Format
 from .grid import BYTES_PER_PIXEL, UnusableScan, finish_grid, with_problems
 from .options import ANGLE, AS_IT_IS, LIGHTER, pixels_kept
 from .poses import ptx_pose
-from .ptx_points import END_MARKS, PointLines, number_of, shortened, shown
-from .text_lines import TextLines
+from .ptx_points import END_MARKS, PointLines, number_of, ptx_lines, shortened, shown
 
 _SHORTEST_LINE = len("0 0 0 0\n")
 # Lines whose mean length tells how many there are, and which share of a scan more than the first one is another scan.
@@ -29,9 +28,9 @@ def read_ptx(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     """Read every scan of a PTX file.
 
     A scan is: columns, rows; the scanner's position and its three axes (4 lines of 3); a 4 x 4 matrix in row-vector
-    convention; then columns x rows lines ``x y z intensity [red green blue]`` in the scanner's own frame, column by
-    column. ``0 0 0`` is no return, and so is what is no number. CRLF, tabs, blank lines, a byte order mark and what
-    old programs put at the end of a file are fine. Of a file that is cut short what is whole is kept.
+    convention; then columns x rows lines ``x y z [intensity] [red green blue]`` in the scanner's own frame, column by
+    column. ``0 0 0`` is no return, and so is what is no number. CRLF, tabs, blank lines, commas, a byte order mark and
+    what old programs put at the end of a file are fine. Of a file that is cut short what is whole is kept.
 
     Parameters
     ----------
@@ -89,7 +88,7 @@ def _by_angle(stored, cells, path, options):
 def _stored_scans(file, path, options, progress, cancelled):
     """Keyword arguments of `finish_grid` for every scan, and ``cells``."""
     stored = []
-    lines = TextLines(file, path, progress=progress, cancelled=cancelled)
+    lines = ptx_lines(file, path, progress=progress, cancelled=cancelled)
     rest = None
     while rest is None and (line := lines.next_line()) is not None:
         lines.check_cancelled()
@@ -139,7 +138,7 @@ class _CutShort(Exception):
 def ptx_pixels(file, path, *, options=AS_IT_IS, outside=False):
     """Return the pixels of the first scan of a PTX and, where the rest of the file has room for more, those of the
     others together, by the length of the first lines; see `scan_pixels`."""
-    lines = TextLines(file, path)
+    lines = ptx_lines(file, path)
     while (line := lines.next_line()) is not None and not line.strip(END_MARKS):
         continue
     if line is None:

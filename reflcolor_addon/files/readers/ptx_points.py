@@ -9,9 +9,10 @@ from ...errors import ScanError
 from ...messages import Message, one_line
 from ...scan.coherence import LineLength
 from .colors import scaled_colors
+from .text_lines import TextLines
 
-_WIDTHS = (4, 7, 10)
-"""`x y z i`, with `r g b`, with a normal after them."""
+_WIDTHS, _BARE = (4, 7, 10), (3, 6)
+"""`x y z i`, with `r g b`, with a normal after them; and of programs that know no intensity."""
 
 _LINES = 1 << 14
 """Lines that are parsed at once where the fast parser cannot read them."""
@@ -20,7 +21,15 @@ _LONGEST_QUOTE = 40
 _NO_NUMBER = re.compile(r"[-+]?(?:nan\([^)\s]*\)|\d\.#[A-Za-z]+\d*)", re.IGNORECASE)
 """What Windows programs print for NaN and infinity: -nan(ind), 1.#QNAN."""
 
+_TELLING = slice(2, 11)
+"""The rest of the header, and the first point."""
+
 END_MARKS = "\x1a\x00 \t"
+
+
+def ptx_lines(file, path, *, progress=None, cancelled=None):
+    """Return the TextLines of a PTX file."""
+    return TextLines(file, path, telling=_TELLING, progress=progress, cancelled=cancelled)
 
 
 class PointLines:
@@ -47,12 +56,14 @@ class PointLines:
         self._stated = sizes[0]
         self._grids = {length: _Grid(count, length, step) for length in (lengths if step > 1 else sizes[:1])}
         self._has_color, self._colorless = False, 0
+        # Which of the two groups of widths the lines have, as the first point tells.
+        self._bare = None
 
     def read(self):
         """Read as many points as were announced, or as there are; return how many."""
         count, at = self._count, 0
         while at < count:
-            values = self._lines.take_numbers(count - at, _WIDTHS)
+            values = self._lines.take_numbers(count - at, self._widths)
             plain = values is not None
             if not plain:
                 first = self._lines.number + 1
@@ -62,9 +73,15 @@ class PointLines:
                 if not any(line and not line.isspace() for line in chunk):
                     continue
                 values = self._parsed(chunk, first)
+            if self._bare is None and (values.shape[1] not in _BARE or values.any()):
+                self._bare = values.shape[1] in _BARE
             self._keep(values, at, plain)
             at += len(values)
         return at
+
+    @property
+    def _widths(self):
+        return (*_WIDTHS, *_BARE) if self._bare is None else _BARE if self._bare else _WIDTHS
 
     def notes(self):
         """What is to be said about this body."""
@@ -98,7 +115,7 @@ class PointLines:
         return {
             "cells": partial(grid.cells, found),
             "points": points,
-            "reflectance": intensity,
+            "reflectance": None if self._bare else intensity,
             "valid": np.ones(intensity.shape, bool),
             "color": None if color is None else _in_8_bits(color, notes),
         }
@@ -108,6 +125,9 @@ class PointLines:
         if self._length is not None:
             first, behind = np.searchsorted(self._length.places, (at, at + len(values)))
             self._seen[first:behind] = values[self._length.places[first:behind] - at, :3]
+        if values.shape[1] in _BARE:
+            # No intensity; the colors, where there are any, in their usual place.
+            values = np.insert(values, 3, 0.0, axis=1)
         with np.errstate(over="ignore", invalid="ignore"):
             intensity = values[:, 3].astype(np.float32)
         color = self._color(values, plain)
@@ -134,14 +154,14 @@ class PointLines:
             return np.where(given[:, None], color, 0).astype(np.uint8 if whole else np.float32)
 
     def _parsed(self, chunk, first):
-        """(n, 4, 7 or 10) float64 of the lines that are not blank; NaN for colors that a line does not have."""
+        """(n, width) float64 of the lines that are not blank; NaN for colors that a line does not have."""
         if any("#" in line or "(" in line for line in chunk):
             chunk = [_NO_NUMBER.sub("nan", line) for line in chunk]
         try:
             values = np.loadtxt(chunk, np.float64, comments=None, ndmin=2)
         except ValueError:
             return self._parsed_one_by_one(chunk, first)
-        return values if values.shape[1] in _WIDTHS else self._parsed_one_by_one(chunk, first)
+        return values if values.shape[1] in self._widths else self._parsed_one_by_one(chunk, first)
 
     def _parsed_one_by_one(self, chunk, first):
         """Slower: for lines that differ in length, and to find the one that is wrong."""
@@ -151,7 +171,7 @@ class PointLines:
             if not words:
                 continue
             try:
-                if len(words) not in _WIDTHS:
+                if len(words) not in self._widths and not _is_nothing(words):
                     raise self._lines.error("expected 4 or 7 values, found {found}", number=number, found=shown(words))
                 values = [number_of(self._lines, word, number) for word in words]
             except ScanError:
@@ -159,7 +179,11 @@ class PointLines:
                 if number == self._lines.number and self._lines.at_end():
                     break
                 raise
+            if len(values) in _BARE:
+                values.insert(3, 0.0)
             parsed.append(values + [np.nan] * (max(_WIDTHS) - len(values)))
+            if self._bare is None and any(values[:3]):
+                self._bare = len(words) in _BARE
         return np.array(parsed, np.float64).reshape(-1, max(_WIDTHS))
 
 
@@ -242,6 +266,11 @@ def _in_8_bits(color, notes):
     if color.dtype == np.uint8 and color.max() > 1:
         return color
     return scaled_colors(color, None, lambda template, **values: notes.append(Message(template, **values)))
+
+
+def _is_nothing(words):
+    """Whether they are three zeros, which some programs write where there is no return, whatever other lines hold."""
+    return len(words) == 3 and not "".join(words).strip("+-0.")
 
 
 def number_of(lines, word, number):

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...messages import Message
-from ...scan.coherence import is_unordered
+from ...scan.coherence import is_cut_anywhere, is_unordered
 from ...scan.grid_health import coarser, compacted
 from ...scan.orientation import AS_STORED, Z_UP, frame_with_up, infer_turn, up_of_camera
 from ...scan.origin import better_origin, repeated_point
@@ -89,6 +89,8 @@ class Settled:
         self._scale()
         self._make_whole()
         self._find_scanner()
+        if is_cut_anywhere(self.points, self.valid):
+            raise NoGrid
         self._turn_upright()
         self._by_hand()
 

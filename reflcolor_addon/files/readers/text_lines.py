@@ -11,6 +11,8 @@ from ..gate import size_of
 # Large enough to be read efficiently, small enough to stay in the cache until it is parsed.
 _BLOCK = 1 << 20
 _LONGEST_LINE = 1 << 16
+# Of lines of numbers.
+_BEGINNINGS = tuple(bytes([mark]) for mark in b"+-.,0123456789")
 _WIDE_MARKS = (b"\xff\xfe", b"\xfe\xff")
 
 
@@ -24,15 +26,19 @@ class TextLines:
     file : binary file
     path : Path
         For messages.
+    telling : slice, optional
+        Those of the lines that are not blank which show how numbers are written: if commas or semicolons part them, or
+        if they have a decimal comma, all lines are handed out with blanks and points instead.
     progress, cancelled : callable, optional
         As in `read_scans`; asked once per block.
     """
 
-    def __init__(self, file, path, *, progress=None, cancelled=None):
+    def __init__(self, file, path, *, telling=None, progress=None, cancelled=None):
         self.path, self.size = path, size_of(file)
         self.number = 0
         """Number of the last line handed out, from 1."""
         self._file, self._progress, self._cancelled = file, progress, cancelled
+        self._telling, self._others = telling, None
         # The current block: lines that end in LF, and where the next one begins.
         self._data, self._at = b"", 0
         self._rest, self._ended = b"", False
@@ -147,6 +153,21 @@ class TextLines:
             raise self.error("longer than any line of numbers; not a text file", number=self.number + 1)
         if returns:
             data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-        self._data, self._at = data, 0
+        if first and self._telling is not None:
+            self._others = _other_marks([line for line in data.split(b"\n") if line.strip()][self._telling])
+        self._data, self._at = data if self._others is None else data.translate(self._others), 0
         if self._progress and self.size:
             self._progress(min(1.0, self._file.tell() / self.size), Message("Reading {file}", file=self.path.name))
+
+
+def _other_marks(lines):
+    """A table for `bytes.translate` that makes numbers of some lines ordinary; None where they are."""
+    lines = [line for line in lines if line.lstrip()[:1] in _BEGINNINGS]
+    text = b"\n".join(lines)
+    if b";" in text:
+        return bytes.maketrans(b";,", b" .")
+    if b"," not in text:
+        return None
+    # With points as well, or without blanks, commas part the numbers.
+    parts = b"." in text or not any(b"," in word for line in lines for word in line.split()[1:])
+    return bytes.maketrans(b",", b" " if parts else b".")

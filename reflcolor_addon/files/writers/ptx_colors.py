@@ -8,13 +8,14 @@ from ..atomic import written_atomically
 from ..gate import opened
 from ..readers.options import AS_IT_IS
 from ..readers.ptx import each_scan
-from ..readers.ptx_points import END_MARKS
-from ..readers.text_lines import TextLines
+from ..readers.ptx_points import END_MARKS, ptx_lines
 from .point_colors import colors_of_points
 
 _HEADER_LINES = 10
 _LINES = 1 << 18
 _COLORS = slice(4, 7)
+# Lines without an intensity, and what programs that know none write there.
+_BARE, _UNKNOWN = (3, 6), "0.500000"
 
 
 def write_ptx_colors(source, colors, path, *, options=AS_IT_IS, progress=None, cancelled=None):
@@ -38,7 +39,7 @@ def write_ptx_colors(source, colors, path, *, options=AS_IT_IS, progress=None, c
             if progress is None
             else (lambda fraction, _: progress(0.5 + fraction / 2, Message("Writing {name}", name=path.name)))
         )
-        lines = TextLines(file, source, progress=half, cancelled=cancelled)
+        lines = ptx_lines(file, source, progress=half, cancelled=cancelled)
         with (
             written_atomically(path) as temporary,
             temporary.open("w", encoding="latin-1", newline="\n") as made,
@@ -107,5 +108,7 @@ def _copy_scan(lines, made, rgb):
 
 def _colored(line, rgb):
     words = line.split()
+    if len(words) in _BARE:
+        words.insert(3, _UNKNOWN)
     words[_COLORS] = map(str, rgb)
     return " ".join(words) + "\n"
