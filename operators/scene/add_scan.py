@@ -37,6 +37,7 @@ def add_scan_object(context, arrays, images=None):
     ----------
     context : bpy.types.Context
     arrays : ObjectArrays
+        The arrays of its mesh are let go.
     images : list of bytes, optional
         From `scan_images`, where a thread has made them before.
     """
@@ -77,21 +78,21 @@ def add_scan_object(context, arrays, images=None):
 
 def _fill_mesh(mesh, arrays):
     """Vertices, faces, UV map and attributes, in bulk."""
-    corners, faces = arrays.corners, arrays.corners.size // arrays.sides
+    corners = arrays.corners.size
     mesh.vertices.add(arrays.coordinates.size // 3)
     mesh.edges.add(arrays.edges.size // 2)
-    mesh.loops.add(corners.size)
-    mesh.polygons.add(faces)
+    mesh.loops.add(corners)
+    mesh.polygons.add(corners // arrays.sides)
     # As attributes they are written in one piece, as "co" and "vertex_index" one by one.
-    mesh.attributes["position"].data.foreach_set("vector", arrays.coordinates)
-    if faces:
-        mesh.attributes[".edge_verts"].data.foreach_set("value", arrays.edges)
-        mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
-        mesh.attributes[".corner_edge"].data.foreach_set("value", arrays.corner_edges)
-        mesh.polygons.foreach_set("loop_start", np.arange(0, corners.size, arrays.sides, dtype=np.int32))
+    mesh.attributes["position"].data.foreach_set("vector", arrays.taken("coordinates"))
+    if corners:
+        mesh.attributes[".edge_verts"].data.foreach_set("value", arrays.taken("edges"))
+        mesh.attributes[".corner_vert"].data.foreach_set("value", arrays.taken("corners"))
+        mesh.attributes[".corner_edge"].data.foreach_set("value", arrays.taken("corner_edges"))
+        mesh.polygons.foreach_set("loop_start", np.arange(0, corners, arrays.sides, dtype=np.int32))
     # The edges are given: finding them would make the window stand still for most of an import.
     mesh.update()
-    mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", arrays.uv)
+    mesh.uv_layers.new(name=UV_MAP).uv.foreach_set("vector", arrays.taken("uv"))
     for name, values in arrays.values.items():
         mesh.attributes.new(name, KINDS[values.dtype.type], "POINT").data.foreach_set("value", values)
 

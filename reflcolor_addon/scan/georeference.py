@@ -40,10 +40,10 @@ def local_center(scan):
 
     It is the scanner itself but for files whose points are stored in world coordinates.
     """
-    points = scan.points[scan.valid]
-    if points.size == 0 or np.abs(points).max() <= FAR:
+    # Without a return points are zeros.
+    if not scan.valid.any() or max(scan.points.max(), -scan.points.min()) <= FAR:
         return np.zeros(3)
-    return np.round(np.median(points, axis=0) / _ROUND_TO) * _ROUND_TO
+    return np.round(np.median(scan.points[scan.valid], axis=0) / _ROUND_TO) * _ROUND_TO
 
 
 def pose_at(scan, center):

@@ -6,15 +6,16 @@ from pathlib import Path
 import numpy as np
 
 from .georeference import local_center, pose_at
-from .grid_mesh import MAX_INCIDENCE_DEG, grid_mesh
+from .grid_mesh import MAX_INCIDENCE_DEG, grid_mesh, row_strips
 from .normalization import normalize
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(eq=False, kw_only=True)
 class ObjectArrays:
     """What an object of Blender is made of: N vertices and F faces.
 
-    A scan's own mesh has one vertex per pixel with a return, in reading order.
+    A scan's own mesh has one vertex per pixel with a return, in reading order. An array that has served is let go, so
+    that a large scan is not in memory twice.
 
     Parameters
     ----------
@@ -71,6 +72,12 @@ class ObjectArrays:
     reflectance_image: np.ndarray | None
     range_image: np.ndarray | None
 
+    def taken(self, name):
+        """Return one of the arrays, which this object holds no longer."""
+        array = getattr(self, name)
+        setattr(self, name, None)
+        return array
+
 
 def on_grid(values, place, shape, empty=0):
     """Return values of some pixels as an array over the whole grid.
@@ -103,7 +110,11 @@ def at_places(image, place):
 
 def local_coordinates(scan, center, units_per_meter=1.0):
     """Return (N, 3) float32, where the returns of a scan are, measured from a (3,) center, in reading order."""
-    return ((scan.points[scan.valid] - center) * units_per_meter).astype(np.float32)
+    strips = [
+        ((scan.points[rows][scan.valid[rows]] - center) * units_per_meter).astype(np.float32)
+        for rows in row_strips(*scan.shape)
+    ]
+    return np.concatenate(strips)
 
 
 def object_arrays(scan, *, units_per_meter=1.0, max_incidence_deg=MAX_INCIDENCE_DEG):
