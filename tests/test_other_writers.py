@@ -183,3 +183,11 @@ def test_a_limit_on_the_size_of_files_is_told_with_what_to_do():
     failure = OSError(errno.EFBIG, "File too large")
     for refusal in (unreadable("hall.e57", failure), unwritable("out.ply", failure)):
         assert "ulimit -f" in str(refusal)
+
+
+def test_noise_beside_the_scanner_does_not_undo_a_grid(tmp_path):
+    points, rng = HALL.copy(), np.random.default_rng(5)
+    noisy = rng.random(NAMES.shape) < 0.2
+    points[noisy] = rng.normal(0, 0.01, (noisy.sum(), 3))
+    (scan,) = e57(tmp_path, fields(points))
+    np.testing.assert_array_equal(scan.points, points)

@@ -22,6 +22,9 @@ _ROUNDS = 3.0
 _LINES = 32
 """Rows, and columns, of which this is asked."""
 
+_NEAR = 0.1
+"""Returns nearer than this share of the usual distance are noise beside the scanner, in any direction."""
+
 
 class LineLength:
     """Finds how long the lines are that a list of points was cut from, by a few of the points.
@@ -93,8 +96,10 @@ def is_cut_anywhere(points, valid):
     """
     for grid, there in ((points, valid), (points.swapaxes(0, 1), valid.T)):
         lines = np.flatnonzero(there.any(axis=1))
-        some = lines[:: max(1, len(lines) // _LINES)]
-        back = [_goes_back_and_forth(grid[line][there[line]]) for line in some]
+        seen = [grid[line][there[line]] for line in lines[:: max(1, len(lines) // _LINES)]]
+        ranges = [np.linalg.norm(line, axis=1) for line in seen]
+        near = _NEAR * np.median(np.concatenate(ranges)) if ranges else 0.0
+        back = [_goes_back_and_forth(line[away > near]) for line, away in zip(seen, ranges, strict=True)]
         if len(back) > 1 and np.median(back) > 0.5:
             return True
     return False
