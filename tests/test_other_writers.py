@@ -14,7 +14,7 @@ from reflcolor_addon.files.readers import ReadOptions, read_scans
 from reflcolor_addon.files.refusals import unreadable, unwritable
 from reflcolor_addon.files.writers.scans_back import ColoredScan, write_scans_back
 
-ANGLE = ReadOptions(grid="angle")
+ANGLE = ReadOptions(grid="angle", position=(0.0, 0.0, 0.0))
 
 
 def body(text, change):

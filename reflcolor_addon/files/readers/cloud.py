@@ -8,7 +8,7 @@ from ...errors import ScanError
 from ...messages import Message, of_scan
 from ..memory import require_memory
 from .angle import gridded_by_angle
-from .colors import scaled_colors
+from .colors import scaled_colors, stacked
 from .e57_grid import IndexGrid
 from .grid import BYTES_PER_PIXEL, UnusableScan, finish_scan
 from .options import ANGLE, LIGHTER
@@ -73,7 +73,7 @@ def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None,
     path : Path
     columns : dict of (N,) arrays
         By name, in lower case. ``x``, ``y`` and ``z``, or ``xyz`` (N, 3), which may be changed; a strength, colors,
-        rows and columns where there are any.
+        rows and columns where there are any. Is empty afterward, so that none of them takes memory longer than needed.
     options : ReadOptions
     name : str, optional
         Of the scan; the file's stem unless given.
@@ -106,14 +106,18 @@ def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None,
         valid = np.isfinite(points).all(axis=-1) & (points != 0).any(axis=-1)
     strength = next((columns[key] for key in _STRENGTHS if key in columns), None)
     names = next((names for names in _COLORS if columns.keys() >= set(names)), None)
-    color = None if names is None else scaled_colors(np.stack([columns[key] for key in names], axis=-1), None, warn)
+    color = None if names is None else scaled_colors(stacked([columns[key] for key in names]), None, warn)
+    grid_names = next((names for names in _GRIDS if columns.keys() >= set(names)), None)
+    places = grid_names and [np.array(columns[key], np.float64) for key in grid_names]
+    # A copy, because a part of a larger table would keep all of it.
+    strength = None if strength is None else np.array(strength)
+    columns.clear()
     pose = np.eye(4) if pose is None else pose
     common = {"pose": pose, "warnings": warnings, "options": options, "name": header.name, "source": path}
     common["places"] = {"matrix": pose[:3, 3]} if pose[:3, 3].any() else {}
-    grid_names = next((names for names in _GRIDS if columns.keys() >= set(names)), None)
     if options.grid == ANGLE:
-        places = [np.zeros(3), *named, *common["places"].values()]
-        arrays, _ = gridded_by_angle(header, points, valid, strength, color, places, options, warn)
+        seen_from = [np.zeros(3), *named, *common["places"].values()]
+        arrays, _ = gridded_by_angle(header, points, valid, strength, color, seen_from, options, warn)
         return finish_scan(**common, **arrays)
     if shape is not None and min(shape) > 1:
 
@@ -122,8 +126,8 @@ def scan_of_columns(path, columns, *, options, name=None, shape=None, pose=None,
 
         arrays = {"points": grid(points), "valid": grid(valid), "color": grid(color)}
         return finish_scan(**common, **arrays, reflectance=grid(strength, np.float32))
-    if grid_names is not None:
-        rows, cols = (np.asarray(columns[key], np.float64) for key in grid_names)
+    if places is not None:
+        rows, cols = places
         limits = dict.fromkeys(("rowIndex", "columnIndex"), (None, None))
         laid = IndexGrid(rows, cols, limits, header)
         laid.place(valid, None, points, strength, options.returns, warn)

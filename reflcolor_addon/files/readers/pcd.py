@@ -40,8 +40,7 @@ def read_pcd(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
         columns = _ascii(file, path, names, counts, count, (width, step), progress, cancelled)
     elif kind == "binary":
         _require(size_of(file) - file.tell() >= count * record.itemsize, path)
-        table = _rows(file, path, record, (height, width), step, progress, cancelled)
-        columns = {name: table[name][:, 0] for name in names}
+        columns = _by_name(_rows(file, path, record, (height, width), step, progress, cancelled))
     elif kind == "binary_compressed":
         columns = _compressed(file, path, record, count, progress, cancelled)
         if step > 1:
@@ -127,6 +126,10 @@ def _rows(file, path, record, shape, step, progress, cancelled):
         if progress:
             progress((row + 1) / height, Message("Reading {file}", file=path.name))
     return kept.ravel()
+
+
+def _by_name(table):
+    return {name: table[name][:, 0] for name in table.dtype.names}
 
 
 def _ascii(file, path, names, counts, count, grid, progress, cancelled):
@@ -217,9 +220,8 @@ def _unpack_colors(columns):
         bits = packed.astype("<f4").view("<u4") if (np.abs(whole) < 1).all() else whole.astype(np.int64)
     else:
         bits = packed
-    bits = bits.astype(np.int64)
     for name, shift in (("red", 16), ("green", 8), ("blue", 0)):
-        columns[name] = ((bits >> shift) & 255).astype(np.float64)
+        columns[name] = ((bits >> shift) & 255).astype(np.uint8)
 
 
 def _whole(header, key, path):
