@@ -44,7 +44,7 @@ _BARS = (0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 2.0)
 _DECIDING = (
     *("edges", "grid_angles", "models", "photo_image", "scan_image"),
     *(f"registration/{name}" for name in ("features", "fitting", "refinement", "registration", "search", "sphere_map")),
-    *("registration/tiles", "registration/verification"),
+    *("registration/tiles", "registration/verification", "registration/repetition"),
 )
 
 

@@ -151,6 +151,9 @@ _MATCHING = {
     "the photo is of one tone": "das Foto ist einfarbig",
     "it shows nothing of the scan that could be found": "es zeigt nichts vom Scan, was sich finden ließe",
     "{count} of {all} parts of the scan agree with it": "{count} von {all} Teilen des Scans stimmen damit überein",
+    "{count} of {all} parts of the scan agree with it, but would elsewhere as well": (
+        "{count} von {all} Teilen des Scans stimmen damit überein, täten es aber anderswo genauso"
+    ),
     "{note}; so placed, it shows nothing of the scan": "{note}; so platziert, zeigt es nichts vom Scan",
     "{scan}: {photo}, so placed, shows nothing of the scan; check the pairs, and add some far from the others": (
         "{scan}: {photo} zeigt, so platziert, nichts vom Scan; die Paare prüfen, und einige fern von den anderen "

@@ -10,6 +10,7 @@ from ..grid_angles import GridAngles, closed
 from ..scan_image import ScanImage, pixel_steps, reflectance_image
 from . import features
 from .fitting import COARSE, FINE, MIDDLE, beside, finely, refined
+from .repetition import alone
 from .search import Search, map_step
 from .tiles import Tiles, surfaces
 from .verification import (
@@ -76,6 +77,12 @@ class Registration:
         if not self.accepted:
             return self
         return replace(self, evidence=beyond_chance(self.evidence, views.image(FINE[0]), photo, self.model))
+
+    def alone(self, views, photo):
+        """Return it with how much better the photo fits here than elsewhere, computed only where that decides."""
+        if not self.accepted:
+            return self
+        return replace(self, evidence=alone(self.evidence, views.image(FINE[0]), photo, self.model))
 
     def better_than(self, other):
         """Whether there is more evidence for it than for another one."""
@@ -207,7 +214,8 @@ def register(views, photo, *, step=lambda text: None):
     if best.accepted and best.model.kind == "pose":
         model, proof = beside(views, photo, best.model, best.evidence, step=step)
         best = replace(best, model=model, evidence=proof)
-    return replace(best, evidence=searched(best.evidence)).beyond_chance(views, photo)
+    best = replace(best, evidence=searched(best.evidence))
+    return best.beyond_chance(views, photo).alone(views, photo)
 
 
 def confirmed(views, photo, model, pairs=None):

@@ -23,7 +23,9 @@ RADIUS = 8
 
 TILE = 40
 _SIZES = (28, TILE, 56)
-_NEAR = 1.5
+NEAR = 1.5
+"""Pixels from its place within which a tile is in place."""
+
 _SPREAD = 0.5
 _CHANCE = 0.06
 # What strength is needed where the photo was taken from the scanner's place, and where from anywhere: the more freedom
@@ -62,6 +64,9 @@ _MORE_EXCHANGED = tuple(
 _HANGS_ON_IT = 2.0
 # The tiles in place must spread over the scan as far as a third of how all tiles do.
 _ACCEPTED_SPREAD = 0.33
+# Of the tiles in place, so many must be in place in wider windows, too; and the best fit elsewhere may have so much of
+# the strength. See `repetition`.
+_ACCEPTED_HELD, _ACCEPTED_ELSEWHERE = 0.25, 0.57
 
 
 @dataclass(frozen=True)
@@ -81,6 +86,10 @@ class Evidence:
         The `strength` that is needed for a model of this freedom.
     needed_tiles : float
         How many tiles must be in place.
+    held : float
+        Which share of the tiles in place is in place in wider windows, too; 1 where that was not looked for.
+    elsewhere : float
+        The strength of the best fit elsewhere as a share of the strength here; 0 where that was not looked for.
     """
 
     deviations: float
@@ -91,6 +100,8 @@ class Evidence:
     distinct: float
     needed: float = _NEEDED_ANYWHERE
     needed_tiles: float = _TILES_ANYWHERE
+    held: float = 1.0
+    elsewhere: float = 0.0
 
     @property
     def accepted(self):
@@ -99,9 +110,16 @@ class Evidence:
 
     @property
     def share(self):
-        """The evidence as a share of what is needed: the smallest of strength, mean, tiles in place and spread."""
+        """The evidence as a share of what is needed: the smallest of strength, mean, tiles in place and spread, and of
+        how much better the photo fits here than elsewhere."""
         enough = self.mean / _ACCEPTED_MEAN, self.in_place / self.needed_tiles, self.spread / _ACCEPTED_SPREAD
-        return max(min(self.rank, *enough), 0.0)
+        return max(min(self.rank, *enough, self._only_here), 0.0)
+
+    @property
+    def _only_here(self):
+        """How much better the photo fits here than elsewhere, as a share of what is needed; infinite if not tested."""
+        held = self.held / _ACCEPTED_HELD if self.held < 1 else np.inf
+        return min(held, _ACCEPTED_ELSEWHERE / self.elsewhere if self.elsewhere > 0 else np.inf)
 
     @property
     def strength(self):
@@ -118,7 +136,11 @@ class Evidence:
         """A `Message` for a person."""
         if self.tiles == 0:
             return Message("it shows nothing of the scan that could be found")
-        return Message("{count} of {all} parts of the scan agree with it", count=self.in_place, all=self.tiles)
+        if self._only_here < 1:
+            said = "{count} of {all} parts of the scan agree with it, but would elsewhere as well"
+        else:
+            said = "{count} of {all} parts of the scan agree with it"
+        return Message(said, count=self.in_place, all=self.tiles)
 
 
 NO_EVIDENCE = Evidence(0.0, 0, 0, 0.0, 0.0, 0.0)
@@ -198,7 +220,7 @@ def judged(found, shift=0.0):
     best = found.scores.reshape(count, -1).argmax(axis=1)
     row, col = np.divmod(best, 2 * radius + 1)
     shift = np.broadcast_to(shift, (count, 2))
-    near = np.hypot(col - radius - shift[:, 0], row - radius - shift[:, 1]) <= _NEAR
+    near = np.hypot(col - radius - shift[:, 0], row - radius - shift[:, 1]) <= NEAR
     middle = looked_up(found.scores, shift[None])[0]
     spread = 0.0
     if near.sum() >= 3:
@@ -219,17 +241,29 @@ def by_chance(scan_image, sighting, model, exchanged=_EXCHANGED):
     """
     strengths, rng = [], np.random.default_rng(0)
     height, width = sighting.seen.shape
-    tiles = Tiles.of(scan_image, TILE)
-    free = model.ALL if model.kind == "homography" else model.POSE
     for mirrored, down, right in exchanged:
         features = sighting.features[:, ::-1] * np.float32([1, 1, -1]) if mirrored else sighting.features
         features = np.roll(features, (round(down * height), round(right * width)), (0, 1))
-        found = surfaces(scan_image, tiles, None, model, RADIUS, replace(sighting, features=features))
-        if found is not None:
-            changed, _ = fitted(found, model, free, blur=1.0, spread=_SPREAD, rng=rng)
-            shift = found.shifts(changed.project(found.sites)[0])
-            strengths.append(judged(found, np.nan_to_num(shift, nan=2.0 * RADIUS)).strength)
-    return np.array(strengths)
+        strengths.append(strength_of(scan_image, sighting, model, features, rng))
+    return np.array([strength for strength in strengths if strength is not None])
+
+
+def strength_of(scan_image, sighting, model, features, rng):
+    """Return the strength of a model that is fitted to other edges (h, w, 3) than the photo's; None where too few tiles
+    are seen."""
+    found = surfaces(scan_image, Tiles.of(scan_image, TILE), None, model, RADIUS, replace(sighting, features=features))
+    if found is None:
+        return None
+    free = model.ALL if model.kind == "homography" else model.POSE
+    changed, _ = fitted(found, model, free, blur=1.0, spread=_SPREAD, rng=rng)
+    shift = found.shifts(changed.project(found.sites)[0])
+    return judged(found, np.nan_to_num(shift, nan=2.0 * RADIUS)).strength
+
+
+def in_place(scores):
+    """Return (N,) bool: tiles whose highest score, of surfaces (N, 2 r + 1, 2 r + 1), is in the middle."""
+    row, col = np.divmod(scores.reshape(len(scores), -1).argmax(axis=1), scores.shape[2])
+    return np.hypot(row - scores.shape[1] // 2, col - scores.shape[2] // 2) <= NEAR
 
 
 def _deviations(near):
