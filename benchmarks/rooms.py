@@ -35,6 +35,16 @@ class Room:
             faces.append(self._on_a_wall(rng))
         self._faces = [(*face, *_paint(rng, face, irregular)) for face in faces]
 
+    @property
+    def depth_m(self):
+        """How far it is from the front wall to the back wall."""
+        return self._size[1]
+
+    @property
+    def cells_m(self):
+        """The size of the squares that its walls, its floor and its ceiling are painted in."""
+        return [round(float(np.median(np.diff(cuts[0]))), 2) for *_, cuts, _, _ in self._faces[:6]]
+
     def _on_a_wall(self, rng):
         """A door, a window or a painting."""
         width, depth, height = self._size
