@@ -1,7 +1,10 @@
 """The acts of the seed tools, as operators: place, pick, keep gray, select, lock, delete, and their undo."""
 
+import importlib
+
 import numpy as np
 import pytest
+from blender_session import EXTENSION
 from small_scans import random_scan
 from test_blender_import import write_small_ptx
 
@@ -51,6 +54,21 @@ def test_a_place_waits_for_the_color_that_is_picked_next(scan):
     assert (color(seed), seed.has_color, seed.select) == ((0, 0, 1), True, False)
     assert (seed.photo.name, tuple(seed.photo_xy), seed.reason) == ("photo.png", (45, 10), "hand")
     assert not settings(scan).picked
+
+
+def test_few_seeds_that_a_person_picked_are_told_from_many_and_from_found_ones(scan):
+    told = importlib.import_module(f"{EXTENSION}.operators.scene.seed_list").seeds_are_few_and_picked
+    obj = scan.context.active_object
+    assert not told(None) and not told(obj)
+    scan.ops.reflcolor.add_seed(row=0, col=0, color=(1, 0, 0))
+    scan.ops.reflcolor.add_seed(row=1, col=1, color=(1, 0, 0))
+    assert told(obj)
+    seeds(scan)[1].reason = "pose"
+    assert not told(obj)
+    seeds(scan)[1].reason = "hand"
+    for _ in range(30):
+        seeds(scan).add()
+    assert not told(obj)
 
 
 def test_a_picked_color_is_given_to_every_place_until_it_is_dropped(scan):
