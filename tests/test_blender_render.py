@@ -2,6 +2,7 @@
 
 import importlib
 import math
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -213,6 +214,26 @@ def test_a_picture_shows_the_same_when_all_else_was_removed(holed, tmp_path, loo
     assert "reflectance" not in obj.data.attributes and not obj.modifiers
     assert len(np.unique(pictures[0])) > 20
     np.testing.assert_array_equal(*pictures)
+
+
+@pytest.mark.parametrize("room", [True, False])
+def test_a_picture_in_tiles_shows_the_same_even_without_room_for_them(holed, tmp_path, monkeypatch, room):
+    blender, _, _ = holed
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.picture_only")
+    scene = blender.context.scene
+    scene.render.resolution_percentage, scene.cycles.samples = 20, 1
+    sides = scene.render.resolution_x * 0.2, scene.render.resolution_y * 0.2
+    monkeypatch.setattr(module, "_TILE", int(min(sides) / 2))
+    module.render(blender.context, tmp_path / "whole.png")
+    temporary = Path(blender.app.tempdir)
+    aside = temporary.rename(temporary.with_name("aside")) if not room else None
+    try:
+        module.render_in_tiles(blender.context, tmp_path / "tiles.png")
+    finally:
+        if aside is not None:
+            aside.rename(temporary)
+    assert (scene.cycles.tile_size < min(sides)) == room
+    np.testing.assert_array_equal(*(cv2.imread(str(tmp_path / f"{name}.png")) for name in ("whole", "tiles")))
 
 
 def add_shades(obj):

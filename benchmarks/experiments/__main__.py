@@ -19,15 +19,16 @@ from reflcolor_addon.settings import PRESETS
 
 def picked_by_hand(group):
     """Method 1."""
-    return [Seeds.load(case.seeds, case.photos) for case in group]
+    return [(Seeds.load(case.seeds, case.photos), None) for case in group]
 
 
 def found_by_program(group):
     """Method 2, verified."""
-    return [found.seeds for found in match_site([case.scan for case in group], group[0].photos)]
+    found = match_site([case.scan for case in group], group[0].photos)
+    return [(matching.seeds, matching.observed) for matching in found]
 
 
-# Each gives the seeds of all scans that are colorized from the same photos.
+# Each gives, for all scans that are colorized from the same photos, the seeds and what the photos saw of the scan.
 METHODS = {"Method 1": picked_by_hand, "Method 2": found_by_program}
 SETTINGS = {"Yatziv": Settings(beta=0)} | {name: Settings.preset(name) for name in reversed(PRESETS)}
 # Side by side in pictures and tables.
@@ -54,10 +55,11 @@ def main():
     methods = {name: seeds_of for name, seeds_of in METHODS.items() if chosen is None or name.endswith(str(chosen))}
     for method, seeds_of in methods.items():
         for key, group in groups.items():
-            seeds = seeds_of(group)
+            colors = seeds_of(group)
             for preset in COMPARED:
                 results[method, preset, key] = [
-                    colorize(case.scan, own, SETTINGS[preset]) for case, own in zip(group, seeds, strict=True)
+                    colorize(case.scan, seeds, SETTINGS[preset], observed=observed)
+                    for case, (seeds, observed) in zip(group, colors, strict=True)
                 ]
     print_tables(groups, results, methods)
     renderer = meshes.Renderer(folder)
@@ -80,7 +82,7 @@ def print_tables(groups, results, methods):
         (case, own)
         for key, group in groups.items()
         if key[1] != cases.HOUSE_PHOTOS["one_photo"]
-        for case, own in zip(group, picked_by_hand(group), strict=True)
+        for case, (own, _) in zip(group, picked_by_hand(group), strict=True)
     ]
     true = [(case, replace(own, rgb=case.truth[own.rows, own.cols])) for case, own in hand]
     for colors, seeded in (("of the photos", hand), ("that are true", true)):
@@ -114,7 +116,7 @@ def draw_flat(folder, groups, results, methods):
                 rows = [[first, second], [third, fourth]]
             save(folder, f"{name}{kind}_{slug(method)}", rows)
         if len(group) == 1:
-            (case,), (own,) = group, picked_by_hand(group)
+            (case,), ((own, _),) = group, picked_by_hand(group)
             compared = [colorize(case.scan, own, SETTINGS[name]).rgb for name in ("Yatziv", "Paper")]
             save(folder, f"{name}_range", [compared])
 

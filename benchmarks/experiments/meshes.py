@@ -72,4 +72,5 @@ class Renderer:
         camera.rotation_euler = toward.to_track_quat("-Z", "Y").to_euler()
         camera.data.angle = math.radians(fov_deg)
         camera.data.clip_start, camera.data.clip_end = 0.1, 1000
-        scene.objects["Headlight"].rotation_euler = camera.rotation_euler
+        # The light comes from where the camera is.
+        self._render.follow_picture(scene, self._picture)

@@ -2,10 +2,13 @@
 
 from ...reflcolor_addon.files.memory import give_back
 from .picture_material import SMOOTH_NORMAL
+from .render import render
 from .shown_surface import MIXED, apply_surface
 
 # Attributes that say how faces are shaded.
 _SHADING = {"material_index", "sharp_edge", "sharp_face"}
+# Pixels of a tile's side: Cycles keeps one tile in memory, and those that are finished in its temporary folder.
+_TILE = 512
 
 
 def leave_picture_only(context, objects):
@@ -29,6 +32,18 @@ def leave_picture_only(context, objects):
     # Blender keeps what it evaluated until then.
     context.view_layer.update()
     give_back()
+
+
+def render_in_tiles(context, path):
+    """Render as `render` does, the same pixels, in less memory; without tiles where they cannot be kept."""
+    cycles, shown = context.scene.cycles, context.scene.render
+    cycles.use_auto_tile, cycles.tile_size = True, _TILE
+    try:
+        render(context, path)
+    except RuntimeError:
+        # Cycles may have no room for tiles; whatever else is wrong is raised again.
+        cycles.tile_size = max(shown.resolution_x, shown.resolution_y)
+        render(context, path)
 
 
 def _read_by_materials(mesh):

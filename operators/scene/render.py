@@ -149,6 +149,8 @@ def _set_up_scene(scene):
     scene.cycles.device = "CPU"
     scene.cycles.samples = 16
     scene.cycles.seed = 0
+    # A table of samples takes less time than computing them, and the picture is no noisier.
+    scene.cycles.sampling_pattern = "TABULATED_SOBOL"
     scene.cycles.max_bounces = 0
     scene.cycles.transparent_max_bounces = 32
     scene.cycles.use_denoising = False

@@ -14,9 +14,9 @@ from .colorized_object import show_colorization
 from .light_object import add_light_object
 from .photo_colors import keep_cameras, keep_observed, observed_cameras, use_cameras
 from .photo_texture import show_texture
-from .picture_only import leave_picture_only
+from .picture_only import leave_picture_only, render_in_tiles
 from .provenance import record_provenance
-from .render import render, set_up_picture
+from .render import set_up_picture
 from .scan_object import COLORIZED
 from .seed_list import append_seeds
 from .usd import write_usd
@@ -109,7 +109,7 @@ def _write(path, write):
 def _render(context, objects, path):
     # Everything else is written; the scene ends with its picture.
     leave_picture_only(context, objects)
-    render(context, path)
+    render_in_tiles(context, path)
 
 
 def _write_blend(path):
