@@ -77,6 +77,10 @@ class PhotoImage:
             self._made[key] = make()
         return self._made[key]
 
+    def let_go(self):
+        """Drop what was made of the photo; what is needed again is made anew, and is the same."""
+        self._made.clear()
+
     def features(self, xy, jacobian, inside):
         """Return the (h, w, 3) edge features of the photo at places of it.
 

@@ -66,7 +66,7 @@ def verified(scans, photos, hand, settings, step, registered=None):
             place.warnings += location.warnings
     for place in places:
         _let_go_of_views(place)
-    give_back()
+    _let_go_of_images(photos)
     observed = _observed(places, photos, step)
     seen = [
         None if own is None else seen_seeds(place.scan, own, place.image, place.superpixels, place.locations, photos)
@@ -86,6 +86,7 @@ def _observed(places, photos, step):
     for place in places:
         step(0.87, Message("{scan}: transferring colors", scan=place.scan.name))
         _align(place, photos)
+        _let_go_of_images(photos)
         views.append([_shown(place, photo, index) for index, photo in enumerate(photos)])
     photo_gains = gains(views)
     observed = []
@@ -109,6 +110,13 @@ def _let_go_of_views(place):
     # A camera that was found by stretched measurements is moved away by a further fit.
     place.to_align = verified and not place.views.stretched
     place.views = None
+
+
+def _let_go_of_images(photos):
+    """Give back what was made of the photos for one step."""
+    for photo in photos:
+        photo.let_go()
+    give_back()
 
 
 def _align(place, photos):

@@ -225,9 +225,12 @@ def _nothing(rgb):
     """(h, w) uint8, 1 in large black parts that reach the border of a photo, or that are black without any noise."""
     import cv2
 
-    # Many times faster than the maximum along an axis.
-    brightest = cv2.max(cv2.max(rgb[..., 0], rgb[..., 1]), rgb[..., 2])
-    number, label, stats, _ = cv2.connectedComponentsWithStats((brightest < _DARKEST).astype(np.uint8), connectivity=4)
+    # Many times faster than NumPy, and without copies of the photo.
+    dark = cv2.inRange(rgb, (0, 0, 0), (_DARKEST - 1,) * 3)
+    # Most photos are done here; labels take four bytes a pixel.
+    if np.count_nonzero(dark) < _LEAST_NOTHING * dark.size:
+        return None
+    number, label, stats, _ = cv2.connectedComponentsWithStats(dark, connectivity=4)
     large = stats[:, cv2.CC_STAT_AREA] >= _LEAST_NOTHING * label.size
     large[0] = False
     if not large.any():
@@ -235,7 +238,7 @@ def _nothing(rgb):
     border = np.concatenate([label[0], label[-1], label[:, 0], label[:, -1]])
     reaching = np.isin(np.arange(number), border)
     noisy = np.zeros(number, bool)
-    noisy[np.unique(label[brightest > 0])] = True
+    noisy[label[(dark > 0) & (cv2.inRange(rgb, (0, 0, 0), (0, 0, 0)) == 0)]] = True
     nothing = large & (reaching | ~noisy)
     return nothing[label].astype(np.uint8) if nothing.any() else None
 
