@@ -104,8 +104,11 @@ class _Known:
         self._path.write_text(json.dumps(self._values, indent=1))
 
 
-def make(folder, scans, photos, seed=0, irregular=False):
-    """Write an archive and its manifest, batch.toml; return which pairs (scan, photo) show the same room."""
+def make(folder, scans, photos, seed=0, irregular=False, size=1.0):
+    """Write an archive and its manifest, batch.toml; return which pairs (scan, photo) show the same room.
+
+    ``size`` is that of scans and photos, beside 80 x 130 and 240 x 180 pixels.
+    """
     rng, first = np.random.default_rng((seed, 5)), 1000 * seed
     scanned = scans - scans // 6
     rooms = [first + scan % scanned for scan in range(scans)]
@@ -115,11 +118,13 @@ def make(folder, scans, photos, seed=0, irregular=False):
     for scan, room in enumerate(rooms):
         path = folder / f"scan_{scan:02d}.ptx"
         if not path.is_file():
-            write_ptx(Room(room, irregular).scan(place=_ASIDE if scan >= scanned else (0, 0), name=path.stem), path)
+            grid = {"rows": round(80 * size), "columns": round(130 * size), "step_deg": 0.6 / size}
+            place = _ASIDE if scan >= scanned else (0, 0)
+            write_ptx(Room(room, irregular).scan(**grid, place=place, name=path.stem), path)
     for photo, room in enumerate(shown):
         path = folder / f"photo_{photo:02d}.png"
         if not path.is_file():
-            write_png(path, Room(room, irregular).photo(photo))
+            write_png(path, Room(room, irregular).photo(photo, round(240 * size), round(180 * size)))
     lines = ('format = "reflcolor-batch"', "version = 1", 'output = "colored"', 'scans = "scan_*.ptx"')
     lines += ('photos = "photo_*.png"', 'write = "png"', f"settings = {{ slic_segments = {SEGMENTS} }}")
     (folder / "batch.toml").write_text("\n".join(lines) + "\n")

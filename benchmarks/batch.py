@@ -1,4 +1,4 @@
-"""How fast a batch is: python -m benchmarks.batch [--scans N] [--photos M] [--rounds R] [--folder DIR]
+"""How fast a batch is: python -m benchmarks.batch [--scans N] [--photos M] [--rounds R] [--size S] [--folder DIR]
 
 The archive of benchmarks.archive is worked on by a batch of one process for each processor, by one process with all
 threads, and by one process that is held to one processor, in turn; the medians of the times by the clock are compared.
@@ -32,11 +32,14 @@ def main():
     parser.add_argument("--scans", type=int, default=60)
     parser.add_argument("--photos", type=int, default=12)
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument(
+        "--size", type=float, default=0.5, help="of scans and photos, beside those of benchmarks.archive"
+    )
     parser.add_argument("--folder", type=Path, help="where to put the archive, and to keep it")
     arguments = parser.parse_args()
     folder = arguments.folder or Path(tempfile.mkdtemp(prefix="batch-"))
     folder.mkdir(parents=True, exist_ok=True)
-    make(folder, arguments.scans, arguments.photos)
+    make(folder, arguments.scans, arguments.photos, size=arguments.size)
     count = thread_count()
     ways = {
         f"{count} processes": (count, None),
