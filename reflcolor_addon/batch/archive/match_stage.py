@@ -27,11 +27,14 @@ class Matched:
         For the path of each photo that is verified anywhere which items it shows.
     by_likeness : dict of str to list of str
         For items that could not be matched here the photos that look best.
+    decided : bool
+        Whether all of it was found.
     """
 
     pairs: dict[str, dict[str, list]] = field(default_factory=lambda: defaultdict(dict))
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     by_likeness: dict[str, list[str]] = field(default_factory=dict)
+    decided: bool = False
 
     def photos(self, item):
         """Return the photos that an item is colored from."""
@@ -220,6 +223,7 @@ class _Rounds:
 
     def decide(self):
         """Find out what each photo shows; say where one contradicts itself."""
+        self._found.decided = True
         for path, claims in sorted(self.claims().items()):
             found = verdict(claims)
             if found.shown or found.refused:

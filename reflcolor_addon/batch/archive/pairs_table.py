@@ -37,7 +37,7 @@ def write_table(context, matched):
             if pair is not None:
                 rows.append((item.name, photo, *_said(pair, matched.verdicts.get(path), item.name)))
             elif with_untried:
-                rows.append((item.name, photo, UNTRIED, "", _why_untried(context, item, path, record)))
+                rows.append((item.name, photo, UNTRIED, "", _why_untried(context, item, path, matched)))
             else:
                 left_out += 1
     write_pairs(context.folder.pairs, sorted(rows))
@@ -70,7 +70,7 @@ def _best(found):
     return best
 
 
-def _why_untried(context, item, path, record):
+def _why_untried(context, item, path, matched):
     same = next((first for photo, first in context.same.photos.items() if str(photo) == path), None)
     if same is not None:
         return Message("the same file as {photo}", photo=context.manifest.name_of(same))
@@ -78,7 +78,10 @@ def _why_untried(context, item, path, record):
         return Message("the same scan as {name}", name=context.same.items[item.name])
     if path in context.problems:
         return context.problems[path]
-    if record is None:
-        failed = (context.folder.recall(ITEMS, item.name) or {}).get("outcome") == FAILED
-        return Message("the scan failed") if failed else Message("the scan was not matched yet")
+    if (context.folder.recall(ITEMS, item.name) or {}).get("outcome") == FAILED:
+        return Message("the scan failed")
+    if not matched.decided:
+        return Message("the scan was not matched yet")
+    if path in matched.verdicts and matched.verdicts[path].shown:
+        return Message("the photo shows {names}", names=", ".join(matched.verdicts[path].shown))
     return Message("the photo looked more like other scans")
