@@ -14,7 +14,7 @@ from .plan import MESH, RENDER, SCANS, SCENE
 # each pixel of a scan:
 _RESULT = 16
 _LIGHT_MESH = 1600
-_WRITING = {MESH: 60, SCANS: 60, SCENE: 360, RENDER: 700}
+_WRITING = {MESH: 60, SCANS: 60, SCENE: 300, RENDER: 700}
 # Photos are matched on a smaller grid of limited size; the scan's own grid is needed as well.
 _MATCHING, _MATCHING_MOST, _MATCHING_ALWAYS = 2400, 550e6, 130
 # For each pixel of a photo: in memory, and while it is decoded.

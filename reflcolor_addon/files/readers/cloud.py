@@ -27,6 +27,9 @@ _STRENGTHS = (
 )
 """What files call the strength of a return, the best first."""
 
+_BY_ANGLE = 64
+"""What laying a grid by angle takes more, in bytes a point."""
+
 _COLORS = (("red", "green", "blue"), ("r", "g", "b"), ("diffuse_red", "diffuse_green", "diffuse_blue"))
 _GRIDS = (("grid_row", "grid_col"), ("rowindex", "columnindex"), ("row", "col"), ("row", "column"))
 
@@ -44,10 +47,13 @@ class Place:
         return {"file": self.file_name, "scan": self.name}
 
 
-def check_size(path, count, columns=8):
-    """Raise ScanError if so many points do not fit into memory."""
+def check_size(path, count, columns=8, *, by_angle=False):
+    """Raise ScanError if so many points do not fit into memory.
+
+    ``python -m benchmarks.reading --memory`` prints what is asked for here, and what reading takes.
+    """
     require_memory(
-        count * (8 * columns + BYTES_PER_PIXEL),
+        count * (8 * columns + BYTES_PER_PIXEL + (_BY_ANGLE if by_angle else 0)),
         Message("{file}: {count:,} points", file=path.name, count=count),
         way=LIGHTER,
         error=ScanError,

@@ -14,7 +14,7 @@ from ..confined.reading import ConfinedReading, native_library
 from ..gate import size_of
 from .cloud import check_size, require_grid, scan_of_columns
 from .formats import Format
-from .options import AS_IT_IS, pixels_kept
+from .options import ANGLE, AS_IT_IS, pixels_kept
 
 SCRIPT = Path(__file__).resolve().parent.parent / "confined" / "laz_points.py"
 _MAGIC = b"LASF"
@@ -45,7 +45,9 @@ def read_las(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     report(0.0)
     header = _header(file, path)
     count, record = header.point_count, header.point_format.size
-    check_size(path, count, len(header.point_format.dimensions) + record // 8)
+    # The records, and of these in columns: coordinates, intensity, colors, and fields beyond the standard's.
+    columns = record // 8 + 7 + len(list(header.point_format.extra_dimensions))
+    check_size(path, count, columns, by_angle=options.grid == ANGLE)
     if header.are_points_compressed:
         data = _decompressed(file, path, header, report, cancelled)
     else:

@@ -33,7 +33,7 @@ def read_pcd(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     width, height, count = _size(header, path)
     organized = height > 1 and options.grid != ANGLE
     step = options.step if organized else 1
-    check_size(path, count // step**2, len(names))
+    check_size(path, count // step**2, len(names), by_angle=options.grid == ANGLE)
     record = np.dtype([(name, kind, (number,)) for name, kind, number in zip(names, types, counts, strict=True)])
     kind = header["DATA"][0].lower()
     if kind == "ascii":

@@ -43,7 +43,8 @@ def read_ply(file, path, *, options=AS_IT_IS, outside=False, progress=None, canc
     vertices = header.vertices
     step = 1 if options.grid == ANGLE else options.step
     numbered = {name for name, *_ in vertices.properties}.issuperset(_NUMBERS)
-    check_size(path, vertices.count // (step**2 if numbered else 1), len(vertices.properties))
+    count, by_angle = vertices.count // (step**2 if numbered else 1), options.grid == ANGLE
+    check_size(path, count, len(vertices.properties), by_angle=by_angle)
     columns, order = {}, header.order
     thinning = _Thinned(step) if numbered and step > 1 else None
     reader = (

@@ -32,7 +32,7 @@ def read_text_cloud(file, path, *, options=AS_IT_IS, outside=False, progress=Non
     """
     lines = TextLines(file, path, telling=_TELLING, progress=progress, cancelled=cancelled)
     parts, width, names, total = [], None, None, 0
-    check_size(path, lines.size // _SHORTEST_LINE // 4, 7)
+    check_size(path, lines.size // _SHORTEST_LINE // 4, 7, by_angle=True)
     first = True
     while chunk := lines.take(1 << 20):
         chunk = [line.replace(",", " ").replace(";", " ") for line in chunk]
