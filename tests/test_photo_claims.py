@@ -95,7 +95,7 @@ def count(rounds, photo):
 
 
 # Many more pairs, so that the share of all that may be tried does not end the rounds.
-_OTHERS = {"other": [(f"other scan {number}", 1.0) for number in range(2000)]}
+_OTHERS = {f"other {photo}": [(f"other scan {number}", 1.0) for number in range(200)] for photo in range(30)}
 _NAMES = [f"scan {number:02}" for number in range(20)]
 
 
@@ -103,7 +103,7 @@ def test_the_likeliest_pairs_are_matched_first_and_a_placed_photo_takes_few_more
     ranks = {photo: [(name, 1.0 - 0.1 * k) for k, name in enumerate(_NAMES)] for photo in ("sure", "unsure")}
     claims = {"sure": [claim("scan 00", 80.0)], "unsure": [claim("scan 00", 30.0), claim("scan 05", 29.0)]}
     rounds = rounds_of(Tries(ranks | _OTHERS), claims)
-    assert {("sure", "scan 00"), ("unsure", "scan 00")} < rounds[0] and len(rounds[0]) == 3
+    assert {("sure", "scan 00"), ("unsure", "scan 00")} < rounds[0] and len(rounds[0]) == len(ranks | _OTHERS)
     assert count(rounds, "unsure") == MOST_SCANS
     assert 1 < count(rounds, "sure") < MOST_SCANS / 2
 
@@ -117,6 +117,12 @@ def test_scans_of_the_place_that_a_photo_shows_are_tried_even_if_they_look_unlik
     ranks = {"a": [("hall", 1.0), ("cellar", 0.02), ("hall again", 0.01)]}
     rounds = rounds_of(Tries(ranks | _OTHERS), {"a": [claim("hall", 80.0)]}, {"hall": {"hall again"}})
     assert [pair for pairs in rounds for pair in pairs if pair[0] == "a"] == [("a", "hall"), ("a", "hall again")]
+
+
+def test_a_few_photos_are_tried_on_several_scans_at_once():
+    ranks = {photo: [(f"scan {number}", 1.0) for number in range(200)] for photo in "abc"}
+    rounds = rounds_of(Tries(ranks))
+    assert [len(pairs) for pairs in rounds] == [9, 9, 9]
 
 
 def test_in_a_small_archive_a_photo_that_is_not_found_is_tried_on_all_scans():

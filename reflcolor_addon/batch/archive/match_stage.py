@@ -142,6 +142,8 @@ class _Rounds:
                 tasks.append(self._task(item, missing))
         if not tasks:
             return
+        # What takes longest begins first, so that no processor is left alone with it at the end.
+        tasks.sort(key=lambda task: (-task.cost, task.name))
         self._number += 1
 
         def done(task, outcome):

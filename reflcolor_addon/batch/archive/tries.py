@@ -4,8 +4,9 @@ from collections import defaultdict
 
 # On how many scans a photo is tried at most.
 MOST_SCANS = 9
-# In a small archive, a round tries a photo on several, so that scans are not read again and again.
-_AT_ONCE = 3
+# In a small archive, or with so few photos, a round tries a photo on several scans: scans are not read again and again,
+# and no processor waits for the last pair of a short round.
+_AT_ONCE, _FEW_PHOTOS = 3, 24
 # A photo is placed where at least so much speaks for it, and twice as much as for any other place that it was tried on.
 # Then it is tried on further scans, which may show the same place, only if they are nearly as likely as the best one,
 # and only in every third round.
@@ -29,7 +30,8 @@ class Tries:
     def __init__(self, ranks, few=False):
         count = sum(map(len, ranks.values()))
         self._ranks, self._tried, self._rounds = ranks, {photo: [] for photo in ranks}, 0
-        self._most, self._at_once = (count, _AT_ONCE) if few else (MOST_SCANS, 1)
+        self._most = count if few else MOST_SCANS
+        self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
         self._budget = count if few else max(len(ranks), int(_MOST_PAIRS * count))
 
     def next(self, claims, beside):
@@ -62,7 +64,7 @@ class Tries:
         placed = _placed(claims.get(photo, ()), beside)
         open_ones = [(share, name) for name, share in ranked if name not in tried]
         if placed is None:
-            return open_ones[: max(0, self._rounds * self._at_once - len(tried))]
+            return open_ones[: max(0, min(self._rounds * self._at_once, self._most) - len(tried))]
         # A scan of the same place comes before all others.
         neighbors = [(1.0, name) for _, name in open_ones if name in beside.get(placed, ())]
         best = max(share for _, share in ranked)
