@@ -20,8 +20,8 @@ class Stalls:
         """Measure the stalls of an act: the longest gap between two turns of the event loop, and between redraws.
 
         A redraw is part of a turn, so with software OpenGL a gap holds the time of drawing the whole window. "cpu" is
-        the time that this thread itself computed within the gap: the rest it waited, for the OpenGL driver's threads or
-        for a processor.
+        the most time that this thread itself computed within one gap, not always the longest: the rest it waited, for
+        the OpenGL driver's threads or for a processor.
         """
         beats, draws = [_now()], [time.perf_counter()]
 
@@ -42,7 +42,7 @@ class Stalls:
             for space, handle in handles:
                 space.draw_handler_remove(handle, "WINDOW")
             beats.append(_now())
-            wall, cpu = max((later[0] - earlier[0], later[1] - earlier[1]) for earlier, later in pairwise(beats))
+            wall, cpu = (max(later[i] - earlier[i] for earlier, later in pairwise(beats)) for i in (0, 1))
             redraw = max((b - a for a, b in pairwise(draws)), default=float("nan"))
             self.notes.append(
                 {
