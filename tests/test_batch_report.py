@@ -124,6 +124,18 @@ def test_a_photo_of_two_places_is_a_contradiction_in_the_table_of_pairs(archive,
     assert read_pairs(archive / "colored" / "pairs.csv") == {("hall_0", "a.png"): True}
 
 
+def test_what_a_person_said_of_a_pair_stays_in_the_table_of_pairs(archive, batch):
+    write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
+    write_pairs(archive / "mine.csv", [("hall_1", "a.png", "no", "", "")])
+    head = HEAD + 'pairs = "mine.csv"\n'
+    (archive / "batch.toml").write_text(head + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
+    assert batch("--stage", "color")[0] == 0
+    with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row["scan"]: (row["shows"], row["note"]) for row in csv.DictReader(file)}
+    assert rows["hall_0"][0] == "cannot be tested"
+    assert rows["hall_1"] == ("no", "as mine.csv says")
+
+
 def test_scans_whose_photo_seems_to_show_two_places_are_warned_of(archive, batch, contradiction):
     batch()
     folder = BatchFolder(archive / "colored")

@@ -27,6 +27,8 @@ class Matched:
         For the path of each photo that is verified anywhere which items it shows.
     by_likeness : dict of str to list of str
         For items that could not be matched here the photos that look best.
+    said : dict of (str, str) to bool
+        What a person says of an item and the path of a photo.
     decided : bool
         Whether all of it was found.
     """
@@ -34,6 +36,7 @@ class Matched:
     pairs: dict[str, dict[str, list]] = field(default_factory=lambda: defaultdict(dict))
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     by_likeness: dict[str, list[str]] = field(default_factory=dict)
+    said: dict[tuple[str, str], bool] = field(default_factory=dict)
     decided: bool = False
 
     def photos(self, item):
@@ -101,7 +104,7 @@ class _Rounds:
             for (item, photo), shows in known_pairs.items()
             if item in self._items and photo in names
         }
-        self._found = matched
+        self._found, matched.said = matched, self._said
         # What is wrong is told when the item is colorized.
         self._found.by_likeness |= {name: list(looks.photos) for name in looks.unseen}
         self._number = 0

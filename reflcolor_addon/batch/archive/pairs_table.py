@@ -35,7 +35,14 @@ def write_table(context, matched):
         for path, photo in photos.items():
             pair = best.get(path)
             if pair is not None:
-                rows.append((item.name, photo, *_said(pair, matched.verdicts.get(path), item.name)))
+                shows, evidence, note = _said(pair, matched.verdicts.get(path), item.name)
+                # What a person says stays, even where the photo gives no colors.
+                shows = YES if matched.said.get((item.name, path)) else shows
+                rows.append((item.name, photo, shows, evidence, note))
+            elif (item.name, path) in matched.said:
+                # Fed back once more, the table says the same.
+                shows = YES if matched.said[item.name, path] else NO
+                rows.append((item.name, photo, shows, "", Message("as {file} says", file=manifest.pairs.name)))
             elif with_untried:
                 rows.append((item.name, photo, UNTRIED, "", _why_untried(context, item, path, matched)))
             else:
