@@ -12,7 +12,7 @@ _AT_ONCE, _FEW_PHOTOS = 3, 24
 # and only in every third round.
 _PLACED, _CLEARLY, _NEARLY, _MORE_EVERY = 25.0, 2.0, 0.5, 3
 # Which share of all pairs is matched at most, beyond the first round.
-_MOST_PAIRS = 0.13
+_MOST_PAIRS = 0.115
 
 
 class Tries:
