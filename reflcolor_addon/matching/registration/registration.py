@@ -39,8 +39,10 @@ _TRIED = 5
 _ROUNDS, _PROMISING, _WORTH = 2, 0.2, 1.05
 # A guess is refined with all there is only if its tiles tell something, a second only if it is nearly as good.
 _TELLING, _NEARLY = 1.0, 0.6
-# A homography whose tiles are in place no more often than by chance is dropped.
-_LEAST_DEVIATIONS = 1.5
+# A homography whose tiles are in place no more often than by chance is dropped. Below chance at once; else it may be
+# off by more than the tiles' windows, and is fitted on larger pixels first, where so much more must be in place.
+_LEAST_DEVIATIONS, _LEAST_FITTED = 1.5, 4.0
+_FROM_AFAR = [(*COARSE, 10, 1.5, 2.0), (*MIDDLE, 8, 1.0, 0.8)]
 _LEAST_CONTRAST = 8
 # A refined camera fits picked pairs as long as it is no farther off at them than by this factor.
 _FITTING = 1.3
@@ -253,8 +255,13 @@ def _by_features(views, photo, step):
     for model in candidates():
         step()
         rough = surfaces(views.image(MIDDLE[0]), views.tiles(*MIDDLE), photo, model, RADIUS)
-        if rough is None or judged(rough).deviations < _LEAST_DEVIATIONS:
+        in_excess = -np.inf if rough is None else judged(rough).deviations
+        if in_excess < 0:
             continue
+        if in_excess < _LEAST_DEVIATIONS:
+            model, proof = refined(views, photo, model, _FROM_AFAR, free=model.ALL, rng=np.random.default_rng(1))
+            if proof.deviations < _LEAST_FITTED:
+                continue
         found = Registration(*finely(views, photo, model, rng), "features")
         if found.better_than(best):
             best = found
