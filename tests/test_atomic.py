@@ -16,7 +16,7 @@ from reflcolor_addon.files import work_folder
 from reflcolor_addon.files.atomic import require_writable, written_atomically
 
 ROOT = Path(__file__).resolve().parent.parent
-POSIX = pytest.mark.skipif(os.name == "nt", reason="permissions and links of POSIX")
+POSIX = pytest.mark.skipif(os.name == "nt", reason="Windows has other permissions and links")
 
 
 def write(path, text="new"):
@@ -308,7 +308,7 @@ for _ in range(20):
     assert names(tmp_path) == ["a.txt", "b.txt", "c.txt"]
 
 
-@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs SIGKILL")
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="Windows cannot kill a process with SIGKILL")
 def test_killed_at_any_moment_the_old_or_the_new_file_is_there_whole(tmp_path, another_run):
     script = """
 import sys

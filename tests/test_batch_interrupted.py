@@ -113,7 +113,7 @@ def undisturbed(tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX systems")
+@pytest.mark.skipif(os.name == "nt", reason="Windows does not end a process with SIGTERM or SIGKILL")
 @pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGKILL])
 def test_a_batch_that_is_ended_goes_on_where_it_was(tmp_path, monkeypatch, undisturbed, stop):
     monkeypatch.chdir(tmp_path)

@@ -203,7 +203,7 @@ def as_nobody():
             os.seteuid(0)
 
 
-@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="permissions of POSIX")
+@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="Windows has other permissions, and no other user to become")
 def test_a_folder_or_file_that_may_not_be_written_is_said_in_one_line(run_cli, cli_folder):
     # What is imported on the way lies where nobody may read.
     assert run_cli(*COLORIZE, "-o", "first.png")[0] == 0

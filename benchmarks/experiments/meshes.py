@@ -57,7 +57,11 @@ class Renderer:
         context.scene.render.resolution_x, context.scene.render.resolution_y = 1280, 800
         if view is not None:
             self._look(context.scene, *view)
-        self._render.render(context, self._path)
+        return self.taken()
+
+    def taken(self):
+        """Return another picture of the same meshes, for which the scene may have been changed."""
+        self._render.render(self._bpy.context, self._path)
         return cv2.imread(str(self._path))[..., ::-1]
 
     def end(self, status):

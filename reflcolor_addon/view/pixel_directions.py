@@ -40,8 +40,10 @@ def _steps(rays, both, way, source):
         step = _beside(rays[..., axis], way)
         step -= rays[..., axis]
         step[~both] = 0
-        mean, sums = _mean_around(step, source), np.cumsum(step, out=step.reshape(-1))
-        found[:, axis] = np.where(near, mean / np.where(near, share, 1), sums[-1] / pairs)
+        mean = _mean_around(step, source)
+        # Added one by one, unlike `sum`, as of all three axes at once: the last bits stay as they were.
+        usual = np.cumsum(step, out=step.reshape(-1))[-1] / pairs
+        found[:, axis] = np.where(near, mean / np.where(near, share, 1), usual)
     return found
 
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from ...messages import Message
 from .places import same_place
 
-# Of several places that a photo seems to show, it shows the one for which so many times as much speaks as for any
-# other. In the archive of ``python -m benchmarks.archive`` wrong pairs, on painted squares, had up to 1.8 times as much
-# as the right one of the same photo. Scans of one place differ by no more than this.
-_CLEARLY = 2.0
+CLEARLY = 2.0
+"""Of several places that a photo seems to show, it shows the one for which so many times as much speaks as for any
+other. In the archive of ``python -m benchmarks.archive`` wrong pairs, on painted squares, had up to 1.8 times as much
+as the right one of the same photo. Scans of one place differ by no more than this."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,11 +116,11 @@ def verdict(claims):
         if claim not in best and _of_one_place(claim, best):
             best.append(claim)
     others = [claim for claim in verified if claim not in best]
-    if not chosen and any(_CLEARLY * claim.strength > best[0].strength for claim in others):
+    if not chosen and any(CLEARLY * claim.strength > best[0].strength for claim in others):
         return Verdict(refused=tuple(claim.item for claim in verified))
     return Verdict(shown=tuple(claim.item for claim in best), refused=tuple(claim.item for claim in others))
 
 
 def _of_one_place(claim, best):
     """Whether a claim stands beside better ones: nearly as much speaks for it, and the scans agree on what it shows."""
-    return any(_CLEARLY * claim.strength >= other.strength and same_place(claim, other) for other in best)
+    return any(CLEARLY * claim.strength >= other.strength and same_place(claim, other) for other in best)

@@ -17,7 +17,6 @@ def write_table(context, matched):
     context : Context
     matched : Matched
 
-
     Raises
     ------
     OutputError

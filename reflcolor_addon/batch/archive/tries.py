@@ -2,15 +2,17 @@
 
 from collections import defaultdict
 
+from .claims import CLEARLY
+
 # On how many scans a photo is tried at most.
 MOST_SCANS = 9
 # In a small archive, or with so few photos, a round tries a photo on several scans: scans are not read again and again,
 # and no processor waits for the last pair of a short round.
 _AT_ONCE, _FEW_PHOTOS = 3, 24
-# A photo is placed where at least so much speaks for it, and twice as much as for any other place that it was tried on.
-# Then it is tried on further scans, which may show the same place, only if they are nearly as likely as the best one,
-# and only in every third round.
-_PLACED, _CLEARLY, _NEARLY, _MORE_EVERY = 25.0, 2.0, 0.5, 3
+# A photo is placed where at least so much speaks for it, and clearly more than for any other place that it was tried
+# on. Then it is tried on further scans, which may show the same place, only if they are nearly as likely as the best
+# one, and only in every third round.
+_PLACED, _NEARLY, _MORE_EVERY = 25.0, 0.5, 3
 # Which share of all pairs is matched at most, beyond the first round.
 _MOST_PAIRS = 0.115
 
@@ -79,5 +81,5 @@ def _placed(claims, beside):
         return None
     best = max(verified, key=lambda claim: claim.strength)
     others = [claim for claim in claims if claim is not best and claim.item not in beside.get(best.item, ())]
-    clear = all(best.strength >= _CLEARLY * claim.strength for claim in others)
+    clear = all(best.strength >= CLEARLY * claim.strength for claim in others)
     return best.item if clear else None
