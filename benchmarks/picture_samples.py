@@ -1,8 +1,9 @@
 """How noisy pictures are, and what they take: python -m benchmarks.picture_samples [--samples 256]
 
-The scan `doria`, enlarged to 760 x 1135 pixels, is rendered as Set Up Render leaves it, with 8 to 16 samples that Cycles
-computes, and as many that it takes from a table. Printed are the processor time of each render, and how far the picture
-is from one of many computed samples: root mean square, in levels of 255. Needs the extension built (`make build`).
+The scan `doria`, enlarged to 760 x 1135 pixels, is rendered as Set Up Render leaves it, with 8 to 16 samples that
+Cycles computes, and as many that it takes from a table. Printed are the processor time of each render, and how far the
+picture is from one of many computed samples: root mean square, in levels of 255. Needs the extension built (`make
+build`).
 """
 
 import argparse

@@ -19,7 +19,10 @@ from reflcolor_addon.files.readers import e57_columns, read_scans
 from reflcolor_addon.files.writers import write_e57
 
 FOLDER = Path(confinement.__file__).parent
-LINUX = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs what Linux has: /proc, limits of a process, a filter of its calls")
+LINUX = pytest.mark.skipif(
+    not sys.platform.startswith("linux"),
+    reason="needs what Linux has: /proc, limits of a process, a filter of its calls",
+)
 LISTEN = "import json, os, sys, time\nline = sys.stdin.readline()\n"
 READY = LISTEN + 'print(json.dumps({"ready": True}), flush=True)\nsys.stdin.readline()\n'
 

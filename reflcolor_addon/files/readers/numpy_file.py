@@ -24,8 +24,8 @@ _DAMAGED = (
     *(SyntaxError, tokenize.TokenError, struct.error, zlib.error, zipfile.BadZipFile),
 )
 """What NumPy and zipfile raise where bytes of a file were changed or are missing, as the fuzz tests show: a header that
-is no Python literal, or one without its keys; a member whose table, version or stream is damaged. The user gets one line
-for all of them. A failing disk is an OSError, which the gate reports."""
+is no Python literal, or one without its keys; a member whose table, version or stream is damaged. The user gets one
+line for all of them. A failing disk is an OSError, which the gate reports."""
 _ENCRYPTED = 1
 _BLOCK = 1 << 20
 
