@@ -8,7 +8,7 @@ import painted_room
 import pytest
 
 from reflcolor_addon import Cancelled, ImageError, Scan, Seeds, SeedsError, Settings, threads
-from reflcolor_addon.matching import draw_matches, match_photos, match_seeds, match_site
+from reflcolor_addon.matching import draw_matches, match_photos, match_seeds, match_site, site
 from reflcolor_addon.matching.registration import location, registration
 from reflcolor_addon.matching.registration.registration import Registration
 
@@ -74,6 +74,12 @@ def test_every_pixel_that_the_photo_saw_has_its_true_color(matching, room):
 def test_a_photo_that_is_not_verified_gives_no_observed_color(refused):
     matching, _ = refused
     assert matching.observed is None
+
+
+def test_for_a_photo_that_is_not_verified_no_superpixels_are_computed(room, monkeypatch):
+    monkeypatch.setattr(site, "scan_superpixels", None)
+    of_one_tone = np.full((48, 64, 3), 90, np.uint8)
+    assert len(match_seeds(room, [of_one_tone], FEW)) == 0
 
 
 def test_seeds_lie_on_pixels_with_a_return_one_per_superpixel(matching, room):

@@ -70,16 +70,20 @@ class Camera:
         right, down, depth = np.moveaxis((points - self.center) @ self.rotation.T, -1, 0)
         ahead = np.where(depth > 1e-6, depth, np.nan)
         x, y = right / ahead, down / ahead
-        squared = x * x + y * y
-        gain = 1 + self.distortion * np.minimum(squared, _WIDEST_SQUARED)
-        bent = 2 * self.distortion * (squared < _WIDEST_SQUARED)
         moved = np.empty((*depth.shape, 2, 2))
         for step, turn in enumerate(turns):
             across, along, away = np.moveaxis(turn @ self.rotation.T, -1, 0)
-            change_x, change_y = (across - x * away) / ahead, (along - y * away) / ahead
-            radial = bent * (x * change_x + y * change_y)
-            moved[..., 0, step] = self.focal_px * (change_x * gain + x * radial)
-            moved[..., 1, step] = self.focal_px * (change_y * gain + y * radial)
+            moved[..., 0, step] = (across - x * away) / ahead
+            moved[..., 1, step] = (along - y * away) / ahead
+        if self.distortion:
+            squared = x * x + y * y
+            gain = 1 + self.distortion * np.minimum(squared, _WIDEST_SQUARED)
+            bent = 2 * self.distortion * (squared < _WIDEST_SQUARED)
+            radial = bent[..., None] * (x[..., None] * moved[..., 0, :] + y[..., None] * moved[..., 1, :])
+            moved *= gain[..., None, None]
+            moved[..., 0, :] += x[..., None] * radial
+            moved[..., 1, :] += y[..., None] * radial
+        moved *= self.focal_px
         return moved
 
     def projections(self, candidates, points, scale):

@@ -1,6 +1,7 @@
 """All scans and all photos of a site: each photo registered on each scan, and seeds made from what was verified."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -28,16 +29,35 @@ _LEAST_SEEN = 100
 
 @dataclass(eq=False)
 class _OnScan:
-    """One scan and what was found for it."""
+    """One scan and what was found for it; what refused photos do not need is computed on first use."""
 
     scan: object
+    settings: object
     views: ScanViews | None
-    image: object
-    superpixels: object
     surface: GridSurface
-    locations: list
-    warnings: list
+    locations: list = field(default_factory=list)
+    warnings: list = field(default_factory=list)
     to_align: bool = False
+
+    @classmethod
+    def of(cls, scan, settings):
+        """Begin with a scan."""
+        return cls(scan, settings, ScanViews(scan), GridSurface(scan))
+
+    @cached_property
+    def image(self):
+        """The scan as a `ScanImage` that superpixels are computed on."""
+        return square_image(self.scan, reflectance_image(self.scan, "percentiles"))
+
+    @cached_property
+    def superpixels(self):
+        """The `Superpixels` of that image."""
+        return scan_superpixels(self.scan, self.image, self.settings)
+
+    @cached_property
+    def look(self):
+        """What each superpixel looks like, see `described`."""
+        return described(self.image, self.superpixels.labels, len(self.superpixels))
 
 
 def verified(scans, photos, hand, settings, step, registered=None):
@@ -55,7 +75,7 @@ def verified(scans, photos, hand, settings, step, registered=None):
     registered : callable, optional
         As `match_site`.
     """
-    places = [_prepared(scan, settings, step) for scan in scans]
+    places = [_OnScan.of(scan, settings) for scan in scans]
     share = 0.8 / len(photos)
     for index, photo in enumerate(photos):
         counted = _counted(step, 0.05 + share * index, share, len(places))
@@ -68,15 +88,11 @@ def verified(scans, photos, hand, settings, step, registered=None):
         _let_go_of_views(place)
     _let_go_of_images(photos)
     observed = _observed(places, photos, step)
-    seen = [
-        None if own is None else seen_seeds(place.scan, own, place.image, place.superpixels, place.locations, photos)
-        for place, own in zip(places, observed, strict=True)
-    ]
+    seen = [_seeds(place, own, photos, step) for place, own in zip(places, observed, strict=True)]
     step(0.93, Message("Learning the materials"))
-    looks = [described(place.image, place.superpixels.labels, len(place.superpixels)) for place in places]
-    appearance = _learned(places, seen, looks)
-    for place, own, colors, look in zip(places, seen, observed, looks, strict=True):
-        seeds = _with_unseen(place, own, look, appearance, photos, settings, step)
+    appearance = _learned(places, seen)
+    for place, own, colors in zip(places, seen, observed, strict=True):
+        seeds = _with_unseen(place, own, appearance, photos, settings, step)
         yield seeds, place.locations, colors, place.warnings
 
 
@@ -97,11 +113,12 @@ def _observed(places, photos, step):
     return shared([place.surface for place in places], observed)
 
 
-def _prepared(scan, settings, step):
-    step(0.02, Message("{scan}: superpixels", scan=scan.name))
-    views = ScanViews(scan)
-    image = square_image(scan, reflectance_image(scan, "percentiles"))
-    return _OnScan(scan, views, image, scan_superpixels(scan, image, settings), GridSurface(scan), [], [])
+def _seeds(place, observed, photos, step):
+    """The `SeenSeeds` of a scan; None where nothing was seen."""
+    if observed is None:
+        return None
+    step(0.92, Message("{scan}: superpixels", scan=place.scan.name))
+    return seen_seeds(place.scan, observed, place.image, place.superpixels, place.locations, photos)
 
 
 def _let_go_of_views(place):
@@ -164,23 +181,23 @@ def _counted(step, begin, share, scans):
     return counted
 
 
-def _learned(places, seen, looks):
+def _learned(places, seen):
     """The `Appearance` of what was seen on all scans; None where nothing was."""
-    known = [(place, own, look) for place, own, look in zip(places, seen, looks, strict=True) if own is not None]
+    known = [(place, own) for place, own in zip(places, seen, strict=True) if own is not None]
     if not known:
         return None
-    descriptors = np.concatenate([look[own.segments] for _, own, look in known])
-    rgb = np.concatenate([own.seeds.rgb for _, own, _ in known])
+    descriptors = np.concatenate([place.look[own.segments] for place, own in known])
+    rgb = np.concatenate([own.seeds.rgb for _, own in known])
     # Scans lie apart.
-    places = [np.column_stack([own.seeds.cols, own.seeds.rows]) + 1e6 * k for k, (_, own, _) in enumerate(known)]
-    return Appearance.learned(descriptors, rgb, np.concatenate(places))
+    at = [np.column_stack([own.seeds.cols, own.seeds.rows]) + 1e6 * k for k, (_, own) in enumerate(known)]
+    return Appearance.learned(descriptors, rgb, np.concatenate(at))
 
 
-def _with_unseen(place, seen, look, appearance, photos, settings, step):
+def _with_unseen(place, seen, appearance, photos, settings, step):
     """Seeds of a scan: where it was seen, and by similarity elsewhere as far as that is reliable."""
     if seen is None and appearance is None:
         return _unverified(place, photos, settings, step)
-    count = len(place.superpixels)
+    look, count = place.look, len(place.superpixels)
     unseen = np.setdiff1d(np.arange(count), seen.segments if seen is not None else [])
     rgb, confidence = (
         appearance.predict(look[unseen])

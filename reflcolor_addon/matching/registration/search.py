@@ -158,7 +158,7 @@ class Search:
         sphere = self._sphere(guess.center, maps.step_deg, window)
         found = []
         for key in keys:
-            found += sphere.peaks(maps, key, count, (_REACH_DEG, _REACH_DEG))
+            found += sphere.peaks(maps, key, count, _REACH_DEG)
         return found
 
 

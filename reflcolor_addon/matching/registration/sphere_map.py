@@ -91,7 +91,7 @@ class SphereMap:
         self.shape = valid.shape
         self._spectra = None, None
 
-    def peaks(self, photo_maps, key, count, reach=None):
+    def peaks(self, photo_maps, key, count, reach_deg=None):
         """Return the best `Guess`es for one map of a photo.
 
         Parameters
@@ -99,41 +99,47 @@ class SphereMap:
         photo_maps : PhotoMaps
         key : (focal, pitch_deg, roll_deg)
         count : int
-        reach : (float, float), optional
-            Degrees of yaw and pitch that the map of the photo is tried around the middle of this map; all without.
+        reach_deg : float, optional
+            How far around the middle of this map the map of the photo is tried; everywhere without.
         """
         patch = photo_maps.at(*key)
         if patch is None:
             return []
-        scores = self._correlation(photo_maps, key, patch)
-        height, width = patch.seen.shape
-        # scores[row, col]: for the photo's corner at row - its height, col - its width.
-        if reach is not None:
-            rows, cols = (np.arange(length) for length in scores.shape)
-            off_row = np.abs(rows - height / 2 - self.shape[0] / 2) * self.step_deg
-            off_col = np.abs(cols - width / 2 - self.shape[1] / 2) * self.step_deg
-            scores[(off_row > reach[1])[:, None] | (off_col > reach[0])] = -1
+        rows, cols = (
+            self._shifts(own, other, reach_deg) for own, other in zip(self.shape, patch.seen.shape, strict=True)
+        )
+        if not (len(rows) and len(cols)):
+            return []
+        # scores[row, col]: for the photo's corner at rows[row], cols[col].
+        scores = self._correlation(photo_maps, key, patch, rows, cols)
         apart = max(2, round(1.6 / self.step_deg))
         found = []
         for _ in range(count):
             row, col = np.unravel_index(scores.argmax(), scores.shape)
             if scores[row, col] <= 0:
                 break
-            yaw = self.left + (col - width) * self.step_deg - patch.left
-            rise = self.top - (row - height) * self.step_deg - patch.top
+            yaw = self.left + cols[col] * self.step_deg - patch.left
+            rise = self.top - rows[row] * self.step_deg - patch.top
             score = float(scores[row, col])
             found.append(Guess(score, key[0], float(yaw), float(key[1] + rise), float(key[2]), self.center))
             scores[max(0, row - apart) : row + apart + 1, max(0, col - apart) : col + apart + 1] = -1
         return found
 
-    def _correlation(self, photo_maps, key, patch):
-        """(h, w): correlation times the root of the overlap."""
+    def _shifts(self, own, other, reach_deg):
+        """By how many pixels a map of ``other`` pixels is moved along one of ``own``."""
+        shifts = np.arange(-other, own)
+        if reach_deg is None:
+            return shifts
+        return shifts[np.abs(shifts + other / 2 - own / 2) * self.step_deg <= reach_deg]
+
+    def _correlation(self, photo_maps, key, patch, rows, cols):
+        """Correlation times the root of the overlap, for each of these shifts, which are without a gap."""
         from scipy import fft
 
-        height, width = patch.seen.shape
+        # As far as these shifts bring the map of the photo around, beyond either end, is left free.
         shape = tuple(
-            fft.next_fast_len(-(-(own + other) // _ROUND_TO) * _ROUND_TO, real=True)
-            for own, other in zip(self.shape, patch.seen.shape, strict=True)
+            fft.next_fast_len(-(-max(own, own - shifts[0], shifts[-1] + other) // _ROUND_TO) * _ROUND_TO, real=True)
+            for own, other, shifts in zip(self.shape, patch.seen.shape, (rows, cols), strict=True)
         )
         # Several threads may be here.
         known_shape, own = self._spectra
@@ -145,11 +151,11 @@ class SphereMap:
         spectra = np.empty((3, *own.shape[1:]), np.complex64)
         np.einsum("cij,cij->ij", own[:-2], other[:-1], out=spectra[0])
         np.multiply(own[-2:], other[-1], out=spectra[1:])
-        product, energy, overlap = fft.irfft2(spectra, shape)
+        lines = fft.ifft(spectra, axis=-2, overwrite_x=True)[:, rows % shape[0]]
+        product, energy, overlap = fft.irfft(lines, shape[1], overwrite_x=True)[..., cols % shape[1]]
         enough = overlap > _LEAST_OVERLAP * min(patch.pixels, self._seen)
         # An array of one number: by a number alone NumPy 1 would multiply in single precision.
-        scores = np.where(enough, product / np.sqrt(np.maximum(energy, 1.0) * np.array([[patch.usual]])), -1)
-        return np.roll(scores, (height, width), (0, 1))
+        return np.where(enough, product / np.sqrt(np.maximum(energy, 1.0) * np.array([[patch.usual]])), -1)
 
 
 @dataclass(frozen=True, eq=False)
