@@ -155,6 +155,7 @@ def test_spherical_coordinates_are_taken_where_the_cartesian_are_no_numbers(tmp_
 TEXTS = {
     "names in another order": ("R G B Intensity X Y Z", "{3} {4} {5} {6:.9f} {0:.9f} {1:.9f} {2:.9f}"),
     "CloudCompare": ("//X Y Z R G B Intensity", "{0:.9f} {1:.9f} {2:.9f} {3} {4} {5} {6:.9f}"),
+    "CloudCompare, colors from 0 to 1": ("//X Y Z Rf Gf Bf Intensity", "{0:.9f} {1:.9f} {2:.9f} {7} {8} {9} {6:.9f}"),
     "CloudCompare, no names": ("", "{0:.9f} {1:.9f} {2:.9f} {3} {4} {5} {6:.9f}"),
     "units and a column of its own": (
         '"x[m]";"y[m]";"z[m]";"time";"Reflectance(dB)"',
@@ -171,13 +172,13 @@ def test_columns_of_a_text_are_those_that_it_names_or_shows(tmp_path, kind):
     hall, names_of_pixels, colors_of_pixels = HALL[::2, ::3], NAMES[::2, ::3], COLOR[::2, ::3]
     values = np.concatenate([hall.reshape(-1, 3), names_of_pixels.reshape(-1, 1)], axis=1)
     colors = colors_of_pixels.reshape(-1, 3).astype(int)
-    rows = [line.format(*point[:3], *rgb, point[3]) for point, rgb in zip(values, colors, strict=True)]
+    rows = [line.format(*point[:3], *rgb, point[3], *rgb / 255) for point, rgb in zip(values, colors, strict=True)]
     text = "\n".join(row.replace(".", ",") if "commas" in kind else row for row in rows)
     (tmp_path / "hall.csv").write_text(f"{names}\n{text}\n" if names else text)
     (scan,) = read_scans(tmp_path / "hall.csv", options=ANGLE)
     np.testing.assert_allclose(scan.points, hall, atol=1e-8)
     np.testing.assert_allclose(scan.reflectance, names_of_pixels, atol=1e-6)
-    if "{3}" in line:
+    if "{3}" in line or "{7}" in line:
         np.testing.assert_array_equal(scan.color, colors_of_pixels)
 
 

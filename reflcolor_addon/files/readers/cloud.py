@@ -30,7 +30,13 @@ _STRENGTHS = (
 _BY_ANGLE = 64
 """What laying a grid by angle takes more, in bytes a point."""
 
-_COLORS = (("red", "green", "blue"), ("r", "g", "b"), ("diffuse_red", "diffuse_green", "diffuse_blue"))
+_COLORS = (
+    ("red", "green", "blue"),
+    ("r", "g", "b"),
+    ("diffuse_red", "diffuse_green", "diffuse_blue"),
+    # CloudCompare's colors as numbers from 0 to 1.
+    ("rf", "gf", "bf"),
+)
 _GRIDS = (("grid_row", "grid_col"), ("rowindex", "columnindex"), ("row", "col"), ("row", "column"))
 
 
