@@ -4,7 +4,7 @@ import csv
 import json
 import sys
 from collections import defaultdict
-from dataclasses import replace
+from dataclasses import astuple, replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -14,7 +14,7 @@ from archives import HEAD, make_archive, table_of
 from small_scans import random_scan
 from test_photo_claims import CELLAR, HALL
 
-from reflcolor_addon.batch.archive.claims import Claim, verdict
+from reflcolor_addon.batch.archive.claims import Claim
 from reflcolor_addon.batch.archive.done import Done
 from reflcolor_addon.batch.archive.duplicates import Duplicates
 from reflcolor_addon.batch.archive.folder import BatchFolder
@@ -22,6 +22,7 @@ from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.batch.archive.match_stage import Matched
 from reflcolor_addon.batch.archive.pairs import COLUMNS, read_pairs, write_pairs
 from reflcolor_addon.batch.archive.pairs_table import write_table
+from reflcolor_addon.batch.archive.verdicts import Verdicts
 from reflcolor_addon.batch.session import Session
 from reflcolor_addon.cli.main import main
 from reflcolor_addon.errors import UsageError
@@ -89,16 +90,17 @@ def test_a_scan_that_failed_after_it_was_read_and_a_duplicate_have_a_picture(arc
 @pytest.fixture
 def contradiction(archive):
     """A batch whose one photo was verified on two scans of different places."""
-    depths = {"hall_0": HALL, "hall_1": CELLAR}
+    behind = {"hall_0": astuple(HALL), "hall_1": astuple(CELLAR)}
     found = {"verified": True, "tested": True, "evidence": 2.0, "note": "verified: 9 of 10 parts", "camera": None}
+    found |= {"repeats": False, "brightness": None}
     path = str(archive / "a.png")
     matched = Matched(pairs=defaultdict(dict))
     claims = []
     for name, strength in (("hall_0", 60.0), ("hall_1", 20.0)):
-        pair = found | {"scan": name, "strength": strength, "depths": depths[name]}
+        pair = found | {"scan": name, "strength": strength, "reflectance": behind[name]}
         matched.pairs[name][path] = [pair]
-        claims.append(Claim.of(name, [pair]))
-    matched.verdicts[path] = verdict(claims)
+        claims.append(Claim.of(name, "a.png", [pair]))
+    matched.verdicts |= Verdicts({path: claims}).by_photo()
     return matched
 
 

@@ -99,15 +99,18 @@ def test_scans_are_ranked_by_how_much_a_photo_looks_like_them_and_the_likeliest_
     assert [name for name in scores if "a" in again.get(name, ())] == list(scores)[8:]
 
 
-def test_second_looks_can_be_compared_between_scans():
-    scores = {"detailed": {"a": 50.0, "b": 52.0}, "plain": {"a": 40.0, "b": 9.0}}
-    assert [name for name, _ in ranks(scores, comparable=True)["a"]] == ["detailed", "plain"]
+def test_at_second_looks_a_scan_with_much_detail_keeps_some_of_its_lead():
+    scores = {"detailed": {"a": 50.0, "b": 52.0}, "plain": {"a": 40.0, "b": 9.0}, "bare": {"a": 4.0, "b": 4.0}}
+    assert [name for name, _ in ranks(scores, second=True)["a"]] == ["detailed", "plain", "bare"]
+    assert ranks(scores)["a"][-1][0] == "detailed"
 
 
-def test_what_either_look_puts_in_front_is_tried_first():
-    first = {"a": [(name, 1.0) for name in ("hall", "attic", "cellar", "yard")]}
-    second = {"a": [("cellar", 1.0), ("attic", 0.5), ("hall", 0.1)]}
-    assert merged(first, second) == {"a": [("cellar", 1.0), ("hall", 0.1), ("attic", 0.5), ("yard", 0.0)]}
+def test_what_both_looks_speak_for_is_tried_first_and_what_was_seen_once_last():
+    first = {"a": [("hall", 1.0), ("attic", 0.5), ("yard", 0.4), ("cellar", 0.2)]}
+    second = {"a": [("cellar", 1.0), ("attic", 0.6), ("hall", 0.1)]}
+    found = merged(first, second)["a"]
+    assert [name for name, _ in found] == ["attic", "cellar", "hall", "yard"]
+    assert [share for _, share in found] == pytest.approx([1.0, 2 / 3, 1 / 3, 0.0])
 
 
 def test_a_part_of_an_archive_takes_photos_that_its_own_looks_speak_for():
@@ -150,7 +153,7 @@ def test_photos_taken_together_go_to_the_same_scan():
 
 
 def test_a_scan_of_the_photos_day_comes_first():
-    scores = {"hall": {"a": 3.0, "b": 1.0, "c": 1.0}, "cellar": {"a": 9.0, "b": 1.0, "c": 1.0}}
+    scores = {"hall": {"a": 3.0, "b": 1.0, "c": 1.0}, "cellar": {"a": 3.5, "b": 1.0, "c": 1.0}}
     taken, day = {"a": Moment(seconds=0.0)}, 86400.0
     assert "a" not in candidates(scores, taken, {"hall": 0.0, "cellar": 0.0})["hall"]
     assert "a" in candidates(scores, taken, {"hall": 0.0, "cellar": 30 * day})["hall"]

@@ -1,28 +1,40 @@
-"""What a photo shows, as far as the scans that it was matched with say: one place."""
+"""What a photo shows, as far as all claims of a batch say: one place, and photos of one scan agree."""
 
-from dataclasses import replace
+from dataclasses import astuple, replace
+from types import SimpleNamespace
 
 import numpy as np
 
 from reflcolor_addon import Scan
-from reflcolor_addon.batch.archive.claims import Claim, Verdict, verdict
-from reflcolor_addon.batch.archive.places import camera_place, depth_map, likeness
+from reflcolor_addon.batch.archive.claims import Claim, Verdict
+from reflcolor_addon.batch.archive.places import Cells, agreement, brightness_seen, camera_place, reflectance_seen
 from reflcolor_addon.batch.archive.tries import MOST_SCANS, Tries
+from reflcolor_addon.batch.archive.verdicts import Verdicts
 from reflcolor_addon.matching.models import Camera
-
-HALL = np.linspace(2.0, 6.0, 18 * 24).reshape(18, 24).tolist()
-CELLAR = np.linspace(3.0, 1.0, 18 * 24).reshape(18, 24).tolist()
+from reflcolor_addon.matching.photo_image import PhotoImage
 
 
-def claim(item, strength, depths=None, **more):
-    return Claim(item=item, verified=True, strength=strength, depths=depths, **more)
+def cells(seed, noise=0.0):
+    """What is seen of a place, in 24 x 18 cells, and something that was not there the other time."""
+    seen = np.random.default_rng(seed).normal(size=(18, 24)) + noise * np.random.default_rng(99).normal(size=(18, 24))
+    rows, cols = np.indices(seen.shape)
+    return Cells.of(rows.ravel(), cols.ravel(), 24, seen.ravel())
+
+
+HALL, HALL_AGAIN, CELLAR = cells(1), cells(1, noise=0.5), cells(2)
+
+
+def claim(item, strength, reflectance=None, verified=True, **more):
+    return Claim(item=item, verified=verified, strength=strength, reflectance=reflectance, **more)
+
+
+def verdict(claims):
+    return Verdicts({"a": claims}).by_photo().get("a", Verdict())
 
 
 def test_a_photo_shows_the_scan_that_it_is_verified_on():
-    assert verdict([claim("hall", 30.0), Claim(item="cellar", verified=False, strength=29.0)]) == Verdict(
-        shown=("hall",)
-    )
-    assert verdict([Claim(item="cellar", verified=False, strength=29.0)]) == Verdict()
+    assert verdict([claim("hall", 30.0), claim("cellar", 29.0, verified=False)]) == Verdict(shown=("hall",))
+    assert verdict([claim("cellar", 29.0, verified=False)]) == Verdict()
     assert Verdict(shown=("hall",)).warning("a.jpg") is None
 
 
@@ -41,11 +53,18 @@ def test_where_no_place_is_clearly_better_none_is_shown():
     assert "none is clearly right" in found.doubt("hall")
 
 
-def test_scans_that_see_the_same_shape_may_all_be_shown():
-    both = [claim("hall", 60.0, HALL), claim("hall again", 45.0, HALL), claim("cellar", 30.0, CELLAR)]
+def test_scans_that_measured_the_same_reflectance_behind_a_photo_may_all_be_shown():
+    both = [claim("hall", 60.0, HALL), claim("hall again", 25.0, HALL_AGAIN), claim("cellar", 30.0, CELLAR)]
     assert verdict(both) == Verdict(shown=("hall", "hall again"), refused=("cellar",))
-    # Rooms can be alike, but then less speaks for the wrong one.
-    assert verdict([claim("hall", 60.0, HALL), claim("like it", 20.0, HALL)]).refused == ("like it",)
+
+
+def test_a_photo_for_whose_other_place_more_speaks_shows_none_unless_it_would_fit_elsewhere_as_well():
+    other = claim("cellar", 50.0, CELLAR, verified=False)
+    found = verdict([claim("hall", 30.0, HALL), other])
+    assert found == Verdict(refused=("hall",), likelier=("cellar",))
+    assert "more speaks for cellar" in str(found.warning("a.jpg")) and "more speaks for cellar" in found.doubt("hall")
+    assert verdict([claim("hall", 30.0, HALL), replace(other, repeats=True)]).shown == ("hall",)
+    assert verdict([claim("hall", 30.0, HALL), replace(other, reflectance=HALL_AGAIN)]).shown == ("hall",)
 
 
 def test_a_person_decides_where_places_contradict_each_other():
@@ -53,8 +72,31 @@ def test_a_person_decides_where_places_contradict_each_other():
     assert found == Verdict(shown=("cellar",), refused=("hall",))
 
 
+def on_the_hall(**photos):
+    """The verdicts on photos of one scan: of each how much speaks for it and what it shows."""
+    claims = {
+        name: [claim("hall", strength, photo=f"{name}.jpg", brightness=seen)]
+        for name, (strength, seen) in photos.items()
+    }
+    return Verdicts(claims).by_photo()
+
+
+def test_of_photos_that_show_a_part_of_a_scan_differently_the_one_that_is_clearly_better_colors_it():
+    found = on_the_hall(a=(60.0, HALL), b=(30.0, CELLAR), c=(20.0, HALL_AGAIN))
+    assert found["a"] == found["c"] == Verdict(shown=("hall",))
+    assert found["b"] == Verdict(refused=("hall",), against={"hall": ("a.jpg", "c.jpg")})
+    assert "does not fit a.jpg, c.jpg" in str(found["b"].warning("b.jpg"))
+    assert "does not fit a.jpg, c.jpg" in found["b"].doubt("hall")
+
+
+def test_of_photos_that_differ_and_are_equally_good_that_one_is_taken_which_another_agrees_with():
+    assert not any(own.shown for own in on_the_hall(a=(60.0, HALL), b=(50.0, CELLAR)).values())
+    found = on_the_hall(a=(50.0, HALL), b=(60.0, CELLAR), c=(45.0, HALL_AGAIN))
+    assert found["a"].shown == found["c"].shown == ("hall",) and not found["b"].shown
+
+
 def test_poses_tell_whether_scans_that_see_different_parts_are_of_one_place():
-    ahead = [0.0, 1.0, 0.0]
+    ahead = [0.0, 1.0, 0.0, 4.0]
     left, right = HALL, CELLAR
     one, beside = [10.0, 5.0, 1.5, *ahead], [10.2, 5.1, 1.5, *ahead]
     far = [40.0, 5.0, 1.5, *ahead]
@@ -62,31 +104,55 @@ def test_poses_tell_whether_scans_that_see_different_parts_are_of_one_place():
     assert verdict([claim("a", 60.0, left, camera=one), claim("b", 50.0, left, camera=far)]).refused
 
 
-def test_the_shape_that_a_photo_shows_does_not_depend_on_where_the_scanner_stood():
-    # A wall with steps, seen from two places; the camera stands at the first one.
-    x, z = np.meshgrid(np.linspace(-2, 2, 80), np.linspace(1.5, -1.5, 60))
-    wall = np.stack([x, 3 + np.floor(x), z], axis=-1)
+def wall(shift=0.0):
+    """A wall with steps, painted at random, seen from one place, and as if the scanner stood elsewhere."""
+    x, z = np.meshgrid(np.linspace(-2, 2, 160), np.linspace(1.5, -1.5, 120))
+    paint = np.kron(np.random.default_rng(3).random((30, 40)), np.ones((4, 4))).astype(np.float32)
+    points = np.stack([x, 3 + np.floor(x), z], axis=-1) - shift
+    return Scan(name="wall", points=points, reflectance=paint, valid=np.ones(x.shape, bool))
+
+
+AHEAD = Camera(np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]), np.zeros(3), 120.0, 0.0, 160, 120)
+
+
+def test_what_scans_measured_behind_a_photo_does_not_depend_on_where_the_scanner_stood():
     shift = np.array([0.5, -1.0, 0.25])
-    here, there = (
-        Scan(name="wall", points=points, reflectance=x.astype(np.float32), valid=np.ones(x.shape, bool))
-        for points in (wall, wall - shift)
-    )
-    camera = Camera(np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]), np.zeros(3), 60.0, 0.0, 80, 60)
-    one, other = depth_map(here, camera), depth_map(there, replace(camera, center=-shift))
-    assert likeness(one, other) == 1.0
-    assert likeness(one, (2 * np.array(one, float)).tolist()) == 0.0
-    assert likeness(one, [[None] * len(line) for line in one]) is None
-    assert camera_place(here, camera) is None
-    posed = replace(here, pose=np.array([[0, -1.0, 0, 7], [1, 0, 0, 8], [0, 0, 1, 9], [0, 0, 0, 1]]))
-    assert camera_place(posed, camera) == [7, 8, 9, -1, 0, 0]
+    here = reflectance_seen(wall(), AHEAD)
+    assert agreement(here, reflectance_seen(wall(shift), replace(AHEAD, center=-shift))) > 0.99
+    # The same shape, but of other paint.
+    other = wall()
+    other = replace(other, reflectance=other.reflectance[::-1])
+    assert abs(agreement(here, reflectance_seen(other, AHEAD))) < 0.2
+    assert agreement(here, None) is None
+    assert agreement(here, Cells(here.across, here.index[:100], here.values[:100])) is None
 
 
-def rounds_of(tries, claims=None, beside=None):
+def test_photos_of_a_scan_are_compared_where_both_show_it_whatever_their_exposure():
+    scan = wall()
+    gray = np.uint8(40 + 150 * scan.reflectance)[..., None].repeat(3, axis=2)
+    straight = replace(AHEAD, center=np.array([0.0, 0.5, 0.0]))
+    seen = [
+        brightness_seen(scan, camera, SimpleNamespace(gray=(gain * gray[..., 0]).astype(np.float32)))
+        for camera, gain in ((AHEAD, 1.0), (AHEAD, 0.4), (straight, 1.0))
+    ]
+    assert agreement(seen[0], seen[1]) > 0.99
+    assert agreement(seen[0], seen[2]) < 0.5
+    assert astuple(brightness_seen(scan, AHEAD, PhotoImage("a", gray))) == astuple(seen[0])
+
+
+def test_the_place_of_a_camera_is_that_in_the_world():
+    assert camera_place(wall(), AHEAD) is None
+    posed = replace(wall(), pose=np.array([[0, -1.0, 0, 7], [1, 0, 0, 8], [0, 0, 1, 9], [0, 0, 0, 1]]))
+    assert camera_place(posed, AHEAD)[:6] == [7, 8, 9, -1, 0, 0]
+    assert 2 < camera_place(posed, AHEAD)[6] < 4
+
+
+def rounds_of(tries, claims=None):
     """All rounds, with these claims after the first: pairs of a photo and a scan."""
-    rounds, found = [], {}
-    while pairs := tries.next(found, beside or {}):
+    rounds, found = [], Verdicts({})
+    while pairs := tries.next(found):
         rounds.append({(photo, name) for name, photos in pairs.items() for photo in photos})
-        found = claims or {}
+        found = Verdicts(claims or {})
     return rounds
 
 
@@ -100,22 +166,42 @@ _NAMES = [f"scan {number:02}" for number in range(20)]
 
 
 def test_the_likeliest_pairs_are_matched_first_and_a_placed_photo_takes_few_more():
-    ranks = {photo: [(name, 1.0 - 0.1 * k) for k, name in enumerate(_NAMES)] for photo in ("sure", "unsure")}
-    claims = {"sure": [claim("scan 00", 80.0)], "unsure": [claim("scan 00", 30.0), claim("scan 05", 29.0)]}
+    ranks = {photo: [(name, 0.5**k) for k, name in enumerate(_NAMES)] for photo in ("sure", "unsure")}
+    claims = {
+        "sure": [claim("scan 00", 80.0, HALL, evidence=2.0)],
+        "unsure": [claim("scan 00", 30.0, HALL, evidence=2.0), claim("scan 05", 29.0, CELLAR, evidence=2.0)],
+    }
     rounds = rounds_of(Tries(ranks | _OTHERS), claims)
     assert {("sure", "scan 00"), ("unsure", "scan 00")} < rounds[0] and len(rounds[0]) == len(ranks | _OTHERS)
     assert count(rounds, "unsure") == MOST_SCANS
     assert 1 < count(rounds, "sure") < MOST_SCANS / 2
 
 
-def test_a_placed_photo_is_not_tried_on_scans_that_are_far_less_likely():
-    ranks = {"a": [("hall", 1.0), ("cellar", 0.2)]}
-    assert count(rounds_of(Tries(ranks | _OTHERS), {"a": [claim("hall", 80.0)]}), "a") == 1
+def test_what_was_barely_verified_is_tried_on_further_scans():
+    ranks = {photo: [(name, 1.0) for name in _NAMES] for photo in ("sure", "unsure")}
+    claims = {
+        "sure": [claim("scan 00", 80.0, evidence=2.0)],
+        "unsure": [claim("scan 00", 80.0, evidence=1.1)],
+    }
+    rounds = rounds_of(Tries(ranks | _OTHERS), claims)
+    assert count(rounds, "sure") == 1 and count(rounds, "unsure") == MOST_SCANS
+
+
+def test_a_photo_that_looks_like_many_scans_is_tried_on_more_of_them():
+    ranks = {
+        "plain": [(name, 1.0) for name in _NAMES],
+        "clear": [("hall", 1.0), *((name, 0.001) for name in _NAMES)],
+    }
+    rounds = rounds_of(Tries(ranks | _OTHERS))
+    after = [pair for pairs in rounds[1:] for pair in pairs]
+    tries = {photo: [photo == own for own, _ in after].index(True) for photo in ranks}
+    assert tries["plain"] < tries["clear"]
 
 
 def test_scans_of_the_place_that_a_photo_shows_are_tried_even_if_they_look_unlikely():
-    ranks = {"a": [("hall", 1.0), ("cellar", 0.02), ("hall again", 0.01)]}
-    rounds = rounds_of(Tries(ranks | _OTHERS), {"a": [claim("hall", 80.0)]}, {"hall": {"hall again"}})
+    ranks = {"a": [("hall", 1.0), *((name, 1.0) for name in _NAMES), ("hall again", 0.0)], "b": [("hall", 1.0)]}
+    both = [claim("hall", 80.0, HALL, evidence=2.0), claim("hall again", 80.0, HALL_AGAIN, evidence=2.0)]
+    rounds = rounds_of(Tries(ranks | _OTHERS), {"a": [claim("hall", 80.0, HALL, evidence=2.0)], "b": both})
     assert [pair for pairs in rounds for pair in pairs if pair[0] == "a"] == [("a", "hall"), ("a", "hall again")]
 
 

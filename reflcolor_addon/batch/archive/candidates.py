@@ -13,6 +13,9 @@ SECOND_LOOKS = 20
 # Where nothing is known of other scans, a photo is matched with the likeliest at the first look, and with those for
 # which at least so much speaks at the second.
 _LIKELIEST, _TELLING = 2, 15.0
+# How much of a scan's usual score is taken out of a look's scores, and to which power they say how likely a pair is.
+# Both were fitted to the looks at an archive of ``python -m benchmarks.archive``.
+_FIRST, _SECOND = (1.0, 8.0), (0.5, 1.5)
 # Photos taken within this many seconds, or meters, of each other probably show the same thing.
 _TOGETHER_S, _TOGETHER_M = 60.0, 10.0
 # Cameras seldom store their time zone, so times may differ by this much; a scan from another day is less likely.
@@ -20,7 +23,7 @@ _SAME_DAY_S, _ANOTHER_DAY = 14 * 3600.0, 0.5
 _METERS_PER_DEGREE = 111_195.0
 
 
-def ranks(scores, moments=None, scanned=None, comparable=False):
+def ranks(scores, moments=None, scanned=None, second=False):
     """Put the scans in order that each photo may show.
 
     Parameters
@@ -31,22 +34,25 @@ def ranks(scores, moments=None, scanned=None, comparable=False):
         When and where photos were taken, by their paths.
     scanned : dict of str to float, optional
         When items were scanned, in seconds since 1970, by their names.
-    comparable : bool
-        Whether scores of different items can be compared, as those of second looks.
+    second : bool
+        Whether these are scores of second looks.
 
     Returns
     -------
     dict of str to list of (str, float)
         For each photo its items, the likeliest first, and how likely each is as a share of that.
     """
-    scanned = scanned or {}
+    scanned, (leveled, telling_power) = scanned or {}, _SECOND if second else _FIRST
     # A scan with much detail gets higher scores with every photo; what counts is how much a photo stands out.
     shares = {}
     for name, own in scores.items():
-        usual = 1.0 if comparable or not own else max(median_high(own.values()), 1e-9)
+        usual = max(median_high(own.values()), 1e-9) ** leveled if own else 1.0
         for photo, score in own.items():
             shares.setdefault(photo, {})[name] = score / usual
-    shares = {photo: _of_the_best(own) for photo, own in shares.items()}
+    shares = {
+        photo: {name: share**telling_power for name, share in _of_the_best(own).items()}
+        for photo, own in shares.items()
+    }
     moments = {photo: its for photo, its in (moments or {}).items() if photo in shares and its != Moment()}
     others, ranked = _Neighbors(moments), {}
     for photo in shares:
@@ -58,19 +64,19 @@ def ranks(scores, moments=None, scanned=None, comparable=False):
 
 
 def merged(first, second):
-    """Return ranks by two looks: what the one and the other puts in front comes in turn, because each misses some.
+    """Return ranks by two looks: a pair is as likely as the one and the other say together.
 
     Parameters
     ----------
     first, second : dict of str to list of (str, float)
-        From `ranks`; what was not looked at twice comes last. The shares are those of the second look.
+        From `ranks`; what was not looked at twice comes last.
     """
     found = {}
     for photo, own in first.items():
-        again = second.get(photo, [])
-        shares, names = dict(again), [name for name, _ in own]
-        in_turn = [name for pair in zip([name for name, _ in again], names, strict=False) for name in pair]
-        found[photo] = [(name, shares.get(name, 0.0)) for name in dict.fromkeys([*in_turn, *shares, *names])]
+        again, before = second.get(photo, []), dict(own)
+        both = _of_the_best({name: share * before[name] for name, share in again})
+        rest = [(name, 0.0) for name, _ in own if name not in both]
+        found[photo] = sorted(both.items(), key=lambda entry: (-entry[1], entry[0])) + rest
     return found
 
 

@@ -94,7 +94,7 @@ def second_looks(context, items, looks):
     """
     likely = for_second_looks(looks.first)
     looks.strengths = _look(context, items, likely, looks, "Looked again at photos for", second=True)
-    looks.ranks = merged(looks.first, ranks(looks.strengths, looks.moments, looks.scanned, comparable=True))
+    looks.ranks = merged(looks.first, ranks(looks.strengths, looks.moments, looks.scanned, second=True))
 
 
 def _look(context, items, photos, looks, what, second=False):

@@ -6,10 +6,11 @@ from pathlib import Path
 
 from ..paths import scan_files
 from ..plan_document import as_document
-from .claims import Claim, Verdict, verdict
+from .claims import Claim, Verdict
 from .fingerprints import digest_of, program_digest
 from .look_stage import second_looks
 from .tries import Tries
+from .verdicts import Verdicts
 from .workers import Task
 
 KIND = "pairs"
@@ -84,7 +85,7 @@ def match_items(context, items, own, looks, known_pairs, matched):
     rounds.match(rounds.given())
     if own >= {item.name for item in items}:
         tries = Tries(looks.ranks, looks.few)
-        while pairs := tries.next(rounds.claims(), rounds.beside()):
+        while pairs := tries.next(rounds.verdicts()):
             rounds.match(pairs)
     else:
         # A part of a batch does not wait for what the others find, but takes what they have found.
@@ -108,6 +109,8 @@ class _Rounds:
         # What is wrong is told when the item is colorized.
         self._found.by_likeness |= {name: list(looks.photos) for name in looks.unseen}
         self._number = 0
+        # Made once: what is compared is kept by them.
+        self._claims, self._compared = {}, {}
 
     def given(self):
         """The pairs that a person names."""
@@ -206,33 +209,27 @@ class _Rounds:
             log=self._context.folder.log(f"{item.name} match"),
         )
 
-    def claims(self):
-        """What was found so far, for each photo."""
+    def verdicts(self):
+        """The `Verdicts` on what was found so far."""
         claims = defaultdict(list)
         for name, found in self._found.pairs.items():
             for path, pairs in found.items():
                 # A scan without any return claims nothing.
-                if not pairs:
-                    continue
-                claims[path].append(Claim.of(name, pairs, self._said.get((name, path), False)))
-        return claims
+                if pairs:
+                    claims[path].append(self._claim(name, path, pairs))
+        return Verdicts(claims, self._compared)
 
-    def beside(self):
-        """For each item those that photos say show the same place."""
-        beside = defaultdict(set)
-        for claims in self.claims().values():
-            shown = set(verdict(claims).shown)
-            for name in shown:
-                beside[name] |= shown - {name}
-        return beside
+    def _claim(self, name, path, pairs):
+        if (name, path) not in self._claims:
+            by_hand = self._said.get((name, path), False)
+            self._claims[name, path] = Claim.of(name, self._looks.photos[path], pairs, by_hand)
+        return self._claims[name, path]
 
     def decide(self):
         """Find out what each photo shows; say where one contradicts itself."""
         self._found.decided = True
-        for path, claims in sorted(self.claims().items()):
-            found = verdict(claims)
-            if found.shown or found.refused:
-                self._found.verdicts[path] = found
+        self._found.verdicts |= self.verdicts().by_photo()
+        for path, found in sorted(self._found.verdicts.items()):
             warning = found.warning(self._looks.photos[path])
             if warning is not None and self._own.intersection(found.shown + found.refused):
                 self._context.session.warnings.append(warning)

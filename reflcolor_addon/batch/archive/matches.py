@@ -1,5 +1,7 @@
 """Matches photos with the scans of one item of a batch, without coloring anything."""
 
+from dataclasses import astuple
+
 from ...errors import ReflcolorError
 from ...matching.opened_photos import opened_photos
 from ...matching.registration.location import located
@@ -8,7 +10,7 @@ from ...messages import without_file
 from ..check import check_plan
 from ..read import read_jobs
 from ..scan_job import require_reflectance
-from .places import camera_place, depth_map
+from .places import brightness_seen, camera_place, reflectance_seen
 
 # Share of the progress that is done when the scans are read.
 _READING = 0.1
@@ -28,8 +30,8 @@ def match_at(plan, session):
     -------
     dict
         ``pairs``: for the path of each photo a list of what was found on each scan (``scan``, its label; ``verified``,
-        ``tested``, ``evidence``, ``strength``, ``note``; ``depths`` and ``camera``, see `places`, where it is
-        verified); ``problems``: for the path of each photo that cannot be used why.
+        ``tested``, ``evidence``, ``strength``, ``repeats``, ``note``; ``reflectance``, ``brightness`` and ``camera``,
+        see `places`, where a camera was found); ``problems``: for the path of each photo that cannot be used why.
     """
     session.span = 0.0, _READING
     jobs = read_jobs(plan, check_plan(plan), session, {})
@@ -56,21 +58,27 @@ def match_at(plan, session):
             return session.registrations(jobs[scan], path, register)
 
         found = located(scans, views, nobody, photo, step, registered)
-        pairs[str(path)] = [_told(job, location) for job, location in zip(jobs, found, strict=True)]
+        pairs[str(path)] = [_told(job, location, photo) for job, location in zip(jobs, found, strict=True)]
     return {"pairs": pairs, "problems": problems}
 
 
-def _told(job, location):
-    registration, depths, camera = location.registration, None, None
+def _told(job, location, photo):
+    registration, evidence = location.registration, location.registration.evidence
+    reflectance = brightness = camera = None
+    if registration.model is not None:
+        reflectance = astuple(reflectance_seen(job.scan, registration.model))
     if location.verified:
-        depths, camera = (tell(job.scan, registration.model) for tell in (depth_map, camera_place))
+        brightness = astuple(brightness_seen(job.scan, registration.model, photo))
+        camera = camera_place(job.scan, registration.model)
     return {
         "scan": job.label,
         "verified": location.verified,
         "tested": location.tested,
-        "evidence": round(registration.evidence.share, 3),
-        "strength": round(registration.evidence.strength, 3),
+        "evidence": round(evidence.share, 3),
+        "strength": round(evidence.strength, 3),
+        "repeats": evidence.repeats,
         "note": str(location.note),
-        "depths": depths,
+        "reflectance": reflectance,
+        "brightness": brightness,
         "camera": camera,
     }

@@ -122,6 +122,11 @@ class Evidence:
         return min(held, _ACCEPTED_ELSEWHERE / self.elsewhere if self.elsewhere > 0 else np.inf)
 
     @property
+    def repeats(self):
+        """Whether the photo would fit elsewhere as well."""
+        return self._only_here < 1
+
+    @property
     def strength(self):
         """Deviations times mean score: right models are high in both."""
         return max(self.deviations, 0.0) * max(self.mean, 0.0)
@@ -136,7 +141,7 @@ class Evidence:
         """A `Message` for a person."""
         if self.tiles == 0:
             return Message("it shows nothing of the scan that could be found")
-        if self._only_here < 1:
+        if self.repeats:
             said = "{count} of {all} parts of the scan agree with it, but would elsewhere as well"
         else:
             said = "{count} of {all} parts of the scan agree with it"
