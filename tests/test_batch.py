@@ -6,11 +6,16 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 
 import numpy as np
-from archives import HEAD, damage_points, table_of
+import pytest
+from archives import HEAD, damage_points, make_archive, table_of
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds, Settings, read_scans
+from reflcolor_addon.batch.archive.costs import Costs
+from reflcolor_addon.batch.archive.estimate import estimate
 from reflcolor_addon.batch.archive.folder import BatchFolder
+from reflcolor_addon.batch.archive.manifest_file import load_manifest
+from reflcolor_addon.batch.archive.options import Options
 from reflcolor_addon.batch.plan import IMAGE, Output, Plan
 from reflcolor_addon.batch.plan_document import as_document, from_document
 from reflcolor_addon.batch.read import safe_label
@@ -18,6 +23,7 @@ from reflcolor_addon.batch.session import Session
 from reflcolor_addon.cli.main import main
 from reflcolor_addon.cli.verbs.batch import _plain_lines
 from reflcolor_addon.files.images import write_jpeg, write_png
+from reflcolor_addon.files.memory import readable
 from reflcolor_addon.files.readers.options import ReadOptions
 from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.report.provenance import read_report
@@ -236,3 +242,15 @@ def test_a_plan_comes_whole_out_of_its_document():
     )
     assert all(getattr(plan, field.name) != field.default for field in fields(plan) if field.default is not MISSING)
     assert from_document(json.loads(json.dumps(as_document(plan)))) == plan
+
+
+def test_the_estimate_of_memory_counts_photos_that_are_open_together_not_all_that_may_be_tried(archive):
+    make_archive(archive, count=12)
+    for number in range(24):
+        (archive / f"{number}.jpg").write_bytes(b"")
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_*.ptx"\nphotos = "*.jpg"\n', encoding="utf-8")
+    manifest = load_manifest(archive / "batch.toml", pytest.fail)
+    costs = Costs(photos=dict.fromkeys(manifest.photos, 50_000_000))
+    said = estimate(manifest, Options(workers=1, memory=1 << 40), costs)[1]
+    scans = manifest.items[0].plan.scans
+    assert said.values["memory"] == readable(costs.memory(scans, manifest.photos[:6]))

@@ -15,15 +15,19 @@ import pytest
 from archives import HEAD, damage_points, make_archive, outputs_of, table_of
 from command_line import process_line, run_process
 
-from reflcolor_addon.batch.archive import color_stage
+from reflcolor_addon.batch.archive import color_stage, progress_lines
+from reflcolor_addon.batch.archive.context import Context
 from reflcolor_addon.batch.archive.done import Done
 from reflcolor_addon.batch.archive.fingerprints import Fingerprints
 from reflcolor_addon.batch.archive.folder import BatchFolder
+from reflcolor_addon.batch.archive.looks import look_at
 from reflcolor_addon.batch.archive.registrations import Registrations
-from reflcolor_addon.batch.archive.workers import Workers
+from reflcolor_addon.batch.archive.workers import Task, Workers
 from reflcolor_addon.cli.interruption import Interruption
 from reflcolor_addon.errors import OutputError
 from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.readers.options import ReadOptions
+from reflcolor_addon.matching.registration.registration import Registration
 
 COUNT, SHAPE = 4, (60, 90)
 
@@ -268,3 +272,41 @@ def test_nothing_is_known_of_work_on_files_that_cannot_be_hashed(tmp_path):
     done.record("hall", "color", done.key("color", None, {"a.ptx": ""}), {"written": []})
     assert done.recall("hall", "color") is not None
     assert done.recall("hall", "color", done.key("color", None, {"a.ptx": ""})) is None
+
+
+def test_what_was_known_before_tells_nothing_of_the_time_left(monkeypatch):
+    clock, said = [100.0], []
+    monkeypatch.setattr(progress_lines, "time", SimpleNamespace(monotonic=lambda: clock[0]))
+    outcomes = {"known": ({"found": {"worked": 0.0}}, 0.0), "new": ({"found": {"worked": 1.0}}, 10.0)}
+
+    class Workers:
+        def work(self, tasks, finished, show, begin):
+            for task in list(tasks)[:-1]:
+                outcome, seconds = outcomes[task.name.split()[0]]
+                clock[0] += seconds
+                finished(task, outcome)
+            show([])
+
+    context = SimpleNamespace(
+        workers=Workers(), session=SimpleNamespace(progress=lambda fraction, text: said.append(text))
+    )
+    tasks = [Task(name=name, request={}) for name in ("known 1", "known 2", "known 3", "new 1", "new 2")]
+    Context.work(context, tasks, lambda task, outcome: None, "Looked at")
+    assert said[0] == "Looked at 4 of 5; 10 s left"
+
+
+def test_looks_and_matches_that_were_kept_count_as_no_work(archive):
+    write_png(archive / "a.png", np.random.default_rng(0).integers(0, 256, (40, 60, 3)).astype(np.uint8))
+    (folder := BatchFolder(archive / "colored")).make()
+    files = [archive / "hall_0.ptx", archive / "a.png"]
+    request = {"folder": str(folder.root), "scans": [str(files[0])], "photos": [str(files[1])], "second": False}
+    request |= {"hashes": {str(path): path.name for path in files}, "reading": ReadOptions().as_dict()}
+    worked = [
+        look_at(request, progress=lambda *_: None, cancelled=lambda: False)["worked"],
+        look_at(request, progress=lambda *_: None, cancelled=lambda: False)["worked"],
+    ]
+    assert worked == [1.0, 0.0]
+    registrations, job = Registrations(folder, request["hashes"]), SimpleNamespace(path=files[0], index=1)
+    for _ in range(2):
+        registrations(job, files[1], Registration.nothing)
+    assert registrations.recalled == 1

@@ -131,7 +131,8 @@ def test_what_a_person_said_of_a_pair_stays_in_the_table_of_pairs(archive, batch
     write_pairs(archive / "mine.csv", [("hall_1", "a.png", "no", "", "")])
     head = HEAD + 'pairs = "mine.csv"\n'
     (archive / "batch.toml").write_text(head + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
-    assert batch("--stage", "color")[0] == 0
+    status, out, _ = batch("--stage", "color")
+    assert status == 0 and "hall_1: no photo was tried on it; pairs.csv says why" in out
     with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
         rows = {row["scan"]: (row["shows"], row["note"]) for row in csv.DictReader(file)}
     assert rows["hall_0"][0] == "cannot be tested"

@@ -84,7 +84,7 @@ def _uncolored(root, label, item):
         "no photo that was tried shows it for certain, so it has no colors; if you know one that does, four to six "
         "pairs picked by hand place it (hand = ... in the manifest)"
         if tried
-        else "no photo looks like it, so it has no colors"
+        else "no photo was tried on it, so it has no colors; pairs.csv says why"
     )
     counts = {"photos": len(tried) or "", "verified_photos": 0 if tried else ""}
     return _entry(label, "unshown", note=note, **counts, **_one_picture(root, label))

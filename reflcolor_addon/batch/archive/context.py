@@ -79,7 +79,10 @@ class Context:
             stop = finished(task, outcome)
             # Tasks to be tried again were put back into the queue.
             if len(tasks) == waiting:
-                left.add(task.cost)
+                # What was known from before takes no time, and tells nothing of how long the rest will take.
+                worked = outcome.get("found", {}).get("worked", 1.0)
+                left.drop((1 - worked) * task.cost)
+                left.add(worked * task.cost)
                 done += 1
             return stop
 

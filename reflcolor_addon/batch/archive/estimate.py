@@ -11,6 +11,8 @@ from .progress_lines import duration
 from .tries import MOST_SCANS
 
 _SECONDS_TO_RENDER = 8.0
+# A photo colors one place; some places have so many times as many photos as usual.
+_MORE_THAN_USUAL = 3.0
 
 
 def estimate(manifest, options, costs):
@@ -50,10 +52,12 @@ def estimate(manifest, options, costs):
         + _SECONDS_TO_RENDER * any(output.kind == RENDER for output in item.plan.outputs)
         for item in items
     )
-    needs = sorted((costs.memory(item.plan.scans, _matched(item, pairs, costs)) for item in items), reverse=True)
+    needs = sorted(
+        (costs.memory(item.plan.scans, _open_together(item, offered, costs)) for item in items), reverse=True
+    )
     lines.append(
         Message(
-            "about {time} if nothing else runs (processes: {workers}), and at most {memory} of memory",
+            "about {time} if nothing else runs (processes: {workers}), and about {memory} of memory",
             time=duration(seconds / options.workers),
             workers=options.workers,
             memory=readable(min(sum(needs[: options.workers]), max(options.memory, needs[0]))),
@@ -70,10 +74,12 @@ def estimate(manifest, options, costs):
     return lines
 
 
-def _matched(item, pairs, costs):
-    """The photos that an item is matched with, at the worst: of the whole batch's as many as it gets, the largest."""
+def _open_together(item, offered, costs):
+    """The photos that are open at the same time, at the worst: of the whole batch's those that color an item, the
+    largest. Those that are tried are opened one after the other."""
     if item.plan.seeds is not None:
         return ()
     if not item.offered:
         return item.plan.photos
-    return sorted(item.plan.photos, key=lambda path: -costs.photos.get(path, 0))[: math.ceil(pairs)]
+    largest = sorted(item.plan.photos, key=lambda path: -costs.photos.get(path, 0))
+    return largest[: math.ceil(_MORE_THAN_USUAL * len(largest) / offered)]

@@ -34,7 +34,7 @@ def look_at(request, *, progress, cancelled):
     -------
     dict
         ``scores``: for the path of each photo how much speaks for it on any of the scans; ``problems``: for the path of
-        each photo that cannot be read why.
+        each photo that cannot be read why; ``worked``: which share of the work had not been done before.
     """
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
     scans = [hashes[str(file)] for path in request["scans"] for file in scan_files(Path(path))]
@@ -65,7 +65,8 @@ def look_at(request, *, progress, cancelled):
     finally:
         if missing and key:
             folder.remember(KIND, key, known)
-    return {"scores": scores, "problems": problems}
+    worked = (1 + len(missing)) / (1 + len(request["photos"])) if missing else 0.0
+    return {"scores": scores, "problems": problems, "worked": worked}
 
 
 def _views(request, progress, cancelled):

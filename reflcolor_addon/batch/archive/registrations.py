@@ -18,10 +18,16 @@ class Registrations:
         The hash of every file of the scans and of every photo, by its path as text.
     reading : ReadOptions
         How the scans are read.
+
+    Attributes
+    ----------
+    recalled : int
+        How many were found here.
     """
 
     def __init__(self, folder, hashes, reading=AS_IT_IS):
         self._folder, self._hashes, self._reading = folder, hashes, reading.as_dict()
+        self.recalled = 0
 
     def __call__(self, job, photo, register):
         """Return the `Registration` of a photo on a scan; ``register()`` finds it where it is not known yet."""
@@ -33,7 +39,9 @@ class Registrations:
         known = self._folder.recall(KIND, key)
         if known is not None:
             try:
-                return from_document(known["registration"])
+                registration = from_document(known["registration"])
+                self.recalled += 1
+                return registration
             except (KeyError, ValueError):
                 pass  # written by a program that died, or by hand: found anew
         registration = register()

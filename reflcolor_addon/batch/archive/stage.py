@@ -160,7 +160,7 @@ def _line(state, outcome, count, whole):
 
 def _unshown(tried):
     if tried == 0:
-        return Message("no photo looks like it")
+        return Message("no photo was tried on it; pairs.csv says why")
     if tried == 1:
         return Message("the photo tried does not show it for certain")
     return Message("none of {tried} photos tried shows it for certain", tried=tried)

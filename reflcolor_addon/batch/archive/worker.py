@@ -111,7 +111,9 @@ class _Worker:
         """Match photos with the scans of an item."""
         lines, plan, found = [], from_document(request["plan"]), {}
         session = self._session(request, plan, lines)
-        return self._outcome(lambda: found.update(match_at(plan, session))) | {"found": found}
+        outcome = self._outcome(lambda: found.update(match_at(plan, session)))
+        pairs = max(1, sum(map(len, found.get("pairs", {}).values())))
+        return outcome | {"found": found | {"worked": 1 - min(session.registrations.recalled / pairs, 1.0)}}
 
     def _session(self, request, plan, lines):
         limit_threads(request["threads"])
