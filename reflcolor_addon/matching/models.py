@@ -59,17 +59,13 @@ class Camera:
 
     def project(self, points):
         """Return (..., 2) pixels from the photo's top left corner, NaN behind the camera, and (...) depth in meters."""
-        right, down, depth = np.moveaxis((points - self.center) @ self.rotation.T, -1, 0)
-        ahead = np.where(depth > 1e-6, depth, np.nan)
-        x, y = right / ahead, down / ahead
-        gain = self.focal_px * (1 + self.distortion * np.minimum(x * x + y * y, _WIDEST_SQUARED))
-        return np.stack([x * gain + self.width / 2, y * gain + self.height / 2], axis=-1), depth
+        x, y, _, depth = self._flat(points)
+        return self._bent(x, y), depth
 
-    def jacobian(self, points, turns):
-        """Return (..., 2, 2), [x or y, step]: what two steps, (2, ..., 3) meters, move a point in the photo."""
-        right, down, depth = np.moveaxis((points - self.center) @ self.rotation.T, -1, 0)
-        ahead = np.where(depth > 1e-6, depth, np.nan)
-        x, y = right / ahead, down / ahead
+    def seen(self, points, turns):
+        """Return what `project` does and (..., 2, 2), [x or y, step]: what two steps, (2, ..., 3) meters, move a point
+        in the photo."""
+        x, y, ahead, depth = self._flat(points)
         moved = np.empty((*depth.shape, 2, 2))
         for step, turn in enumerate(turns):
             across, along, away = np.moveaxis(turn @ self.rotation.T, -1, 0)
@@ -84,7 +80,18 @@ class Camera:
             moved[..., 0, :] += x[..., None] * radial
             moved[..., 1, :] += y[..., None] * radial
         moved *= self.focal_px
-        return moved
+        return self._bent(x, y), depth, moved
+
+    def _flat(self, points):
+        """Where points are seen in focal lengths from the middle, NaN behind the camera; depth, NaN there; depth."""
+        right, down, depth = np.moveaxis((points - self.center) @ self.rotation.T, -1, 0)
+        ahead = np.where(depth > 1e-6, depth, np.nan)
+        return right / ahead, down / ahead, ahead, depth
+
+    def _bent(self, x, y):
+        """Places in focal lengths as (..., 2) pixels of the photo."""
+        gain = self.focal_px * (1 + self.distortion * np.minimum(x * x + y * y, _WIDEST_SQUARED))
+        return np.stack([x * gain + self.width / 2, y * gain + self.height / 2], axis=-1)
 
     def projections(self, candidates, points, scale):
         """Return (K, N, 2): where K candidates see N points; ``scale`` is the meters of a unit shift."""
@@ -152,13 +159,14 @@ class GridHomography:
         weight = np.where(weight * np.sign(self.matrix[2, 2] or 1) > 1e-9, weight, np.nan)
         return mapped[..., :2] / weight[..., None], np.ones(weight.shape)
 
-    def jacobian(self, grid_xy, turns):
-        """Return (..., 2, 2): what each of two steps, (2, ..., 2) pixels of the grid, moves a place in the photo."""
-        here = self.project(grid_xy)[0]
+    def seen(self, grid_xy, turns):
+        """Return what `project` does and (..., 2, 2): what each of two steps, (2, ..., 2) pixels of the grid, moves a
+        place in the photo."""
+        here, depth = self.project(grid_xy)
         moved = np.empty((*here.shape, 2))
         for step, turn in enumerate(turns):
             np.subtract(self.project(grid_xy + turn)[0], here, out=moved[..., step])
-        return moved
+        return here, depth, moved
 
     def projections(self, candidates, grid_xy, scale):
         """Return (K, N, 2): where K candidates (shifts of the grid's corners) put N places of the grid."""

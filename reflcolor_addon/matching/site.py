@@ -8,6 +8,7 @@ import numpy as np
 from ..files.memory import give_back
 from ..messages import Message
 from ..seeds.seeds import Seeds
+from .grid_angles import GridAngles
 from .published.hog_matching import described_photo, described_scan, hog_matches, scan_superpixels, square_image
 from .registration.alignment import Alignment
 from .registration.location import located
@@ -45,9 +46,14 @@ class _OnScan:
         return cls(scan, settings, ScanViews(scan), GridSurface(scan))
 
     @cached_property
+    def angles(self):
+        """The `GridAngles` of the scan."""
+        return GridAngles.of(self.scan)
+
+    @cached_property
     def image(self):
         """The scan as a `ScanImage` that superpixels are computed on."""
-        return square_image(self.scan, reflectance_image(self.scan, "percentiles"))
+        return square_image(self.scan, reflectance_image(self.scan, "percentiles"), self.angles)
 
     @cached_property
     def superpixels(self):
@@ -140,7 +146,7 @@ def _align(place, photos):
     """Fit the verified photos of a scan once more, where that helps."""
     if not place.to_align:
         return
-    alignment = Alignment(place.scan)
+    alignment = Alignment(place.scan, place.angles)
     for index, (photo, location) in enumerate(zip(photos, place.locations, strict=True)):
         if location.verified:
             model = alignment.aligned(photo, location.registration.model, camera_only=location.by_hand)

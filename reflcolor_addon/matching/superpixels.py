@@ -102,9 +102,12 @@ def nearest_to_middles(labels, count, across=None):
     number = np.maximum(np.bincount(label, minlength=count), 1)
     middle = [(np.bincount(label, values, count) / number)[label] for values in (rows, cols)]
     squared = (rows - middle[0]) ** 2 + (cols - middle[1]) ** 2
-    # The first of each label in this order is the nearest.
-    order = np.lexsort((squared, label))
-    first = order[np.searchsorted(label[order], np.arange(count))]
+    nearest = np.full(count, np.inf)
+    np.minimum.at(nearest, label, squared)
+    # Of several that are as near, the first one: the last that is written from behind.
+    among = np.flatnonzero(squared == nearest[label])[::-1]
+    first = np.zeros(count, int)
+    first[label[among]] = among
     return np.column_stack([rows[first], cols[first] % width])
 
 

@@ -40,11 +40,11 @@ class HogMatches:
     xy: np.ndarray
 
 
-def square_image(scan, tone_image):
+def square_image(scan, tone_image, angles=None):
     """Return the scan as a `ScanImage` of its finest square pixels, at most `superpixels.LONGEST_SIDE` a side."""
     vertical, horizontal = pixel_steps(scan)
     extent = max(scan.shape[0] * vertical, scan.shape[1] * horizontal)
-    return ScanImage(scan, tone_image, max(extent / LONGEST_SIDE, min(vertical, horizontal)))
+    return ScanImage(scan, tone_image, max(extent / LONGEST_SIDE, min(vertical, horizontal)), angles=angles)
 
 
 def scan_superpixels(scan, image, settings):

@@ -37,17 +37,19 @@ class Alignment:
     Parameters
     ----------
     scan : Scan
+    angles : GridAngles, optional
+        Of the scan, where they are known already.
     """
 
-    def __init__(self, scan):
-        self._scan = scan
+    def __init__(self, scan, angles=None):
+        self._scan, self._angles = scan, angles
 
     @cached_property
     def _images(self):
         scan = self._scan
         vertical, horizontal = pixel_steps(scan)
         extent = max(scan.shape[0] * vertical, scan.shape[1] * horizontal)
-        ranks, angles = reflectance_image(scan, "ranks"), GridAngles.of(scan)
+        ranks, angles = reflectance_image(scan, "ranks"), self._angles or GridAngles.of(scan)
         return [ScanImage(scan, ranks, extent / longest, angles=angles) for longest in _LONGEST]
 
     def aligned(self, photo, model, *, camera_only=False):

@@ -43,6 +43,7 @@ _TELLING, _NEARLY = 1.0, 0.6
 # off by more than the tiles' windows, and is fitted on larger pixels first, where so much more must be in place.
 _LEAST_DEVIATIONS, _LEAST_FITTED = 1.5, 4.0
 _FROM_AFAR = [(*COARSE, 10, 1.5, 2.0), (*MIDDLE, 8, 1.0, 0.8)]
+_AGAIN = [(*MIDDLE, 10, 1.5, 2.0)]
 _LEAST_CONTRAST = 8
 # A refined camera fits picked pairs as long as it is no farther off at them than by this factor.
 _FITTING = 1.3
@@ -73,6 +74,11 @@ class Registration:
     def beyond_doubt(self):
         """Whether nothing better need be looked for."""
         return self.accepted and self.evidence.rank >= _CONVINCING
+
+    @property
+    def clear(self):
+        """Whether nothing better than a homography need be looked for, either."""
+        return self.beyond_doubt and self.evidence.mean >= _CLEAR
 
     def beyond_chance(self, views, photo):
         """Return it with the strength that it needs to stand out from chance, computed only where that decides."""
@@ -211,7 +217,7 @@ def register(views, photo, *, step=lambda text: None):
         found = attempt()
         if found.better_than(best):
             best = found
-        if best.beyond_doubt and best.evidence.mean >= _CLEAR:
+        if best.clear:
             break
     if best.accepted and best.model.kind == "pose":
         model, proof = beside(views, photo, best.model, best.evidence, step=step)
@@ -263,11 +269,23 @@ def _by_features(views, photo, step):
             if proof.deviations < _LEAST_FITTED:
                 continue
         found = Registration(*finely(views, photo, model, rng), "features")
+        if found.beyond_doubt and not found.clear:
+            # What is right beyond doubt but for some pixels need not be searched for anew.
+            found = _again(views, photo, found, rng)
         if found.better_than(best):
             best = found
         if best.beyond_doubt:
             break
     return best
+
+
+def _again(views, photo, found, rng):
+    """A homography fitted once more, on larger pixels first, or the same if that is no better."""
+    model, _ = refined(views, photo, found.model, _AGAIN, free=found.model.ALL, rng=rng)
+    if model is None:
+        return found
+    better = Registration(*finely(views, photo, model, rng), found.found_by)
+    return better if better.better_than(found) else found
 
 
 def _tried(views, photo, guesses, aside, step):

@@ -280,8 +280,8 @@ def _photo_map(photo, focal, pitch_deg, roll_deg, step_deg):
     turns = np.stack([_field(cosine * level, -sine * level, 0.0), _field(sine * rise, cosine * rise, -level)])
     turns *= np.radians(step_deg)
     camera = Camera(rotation, np.zeros(3), focal_px, 0.0, width, height)
-    xy, depth = camera.project(rays)
+    xy, depth, jacobian = camera.seen(rays, turns)
     seen = (depth > 0) & within(camera, xy)
     if np.count_nonzero(seen) < 64:
         return None
-    return _PhotoMap(photo.features(xy, camera.jacobian(rays, turns), seen), seen, left, top)
+    return _PhotoMap(photo.features(xy, jacobian, seen), seen, left, top)

@@ -107,12 +107,11 @@ class Sighting:
         if part is None:
             return None
         sites, valid = model.sites(scan_image)[part], scan_image.valid[part]
-        xy, depth = _projected(model, sites)
+        xy, depth, jacobian = _seen(model, sites, model.turns(scan_image)[:, *part])
         seen = visible(model, valid, xy, depth)
         if np.count_nonzero(seen) < _LEAST_SEEN:
             return None
         own, distance = scan_image.features[part], scan_image.range[part]
-        jacobian = _jacobian(model, sites, model.turns(scan_image)[:, *part])
         inside = (depth > 0) & within(model, xy)
         features = photo.features(xy, jacobian, inside)
         features *= (inside & (seen | ~valid))[..., None]
@@ -120,19 +119,12 @@ class Sighting:
         return cls(corner, own, features, seen, distance, sites, xy, jacobian)
 
 
-def _projected(model, sites):
-    """Where a model sees (h, w, D) sites, and in what depth."""
-    xy, depth = np.empty((*sites.shape[:2], 2)), np.empty(sites.shape[:2])
+def _seen(model, sites, turns):
+    """Where a model sees (h, w, D) sites, in what depth, and what steps to the next ones move there."""
+    xy, depth, jacobian = (np.empty((*sites.shape[:2], *further)) for further in ((2,), (), (2, 2)))
     for rows in _strips(sites):
-        xy[rows], depth[rows] = model.project(sites[rows])
-    return xy, depth
-
-
-def _jacobian(model, sites, turns):
-    jacobian = np.empty((*sites.shape[:2], 2, 2))
-    for rows in _strips(sites):
-        jacobian[rows] = model.jacobian(sites[rows], turns[:, rows])
-    return jacobian
+        xy[rows], depth[rows], jacobian[rows] = model.seen(sites[rows], turns[:, rows])
+    return xy, depth, jacobian
 
 
 def _strips(image):
