@@ -106,10 +106,14 @@ def _observed(places, photos, step):
     """The `Observed` of each scan, or None."""
     views = []
     for place in places:
-        step(0.87, Message("{scan}: transferring colors", scan=place.scan.name))
-        _align(place, photos)
+
+        def transferring(place=place):
+            step(0.87, Message("{scan}: transferring colors", scan=place.scan.name))
+
+        transferring()
+        _align(place, photos, transferring)
         _let_go_of_images(photos)
-        views.append([_shown(place, photo, index) for index, photo in enumerate(photos)])
+        views.append([_shown(place, photo, index, transferring) for index, photo in enumerate(photos)])
     photo_gains = gains(views)
     observed = []
     for place in places:
@@ -142,13 +146,14 @@ def _let_go_of_images(photos):
     give_back()
 
 
-def _align(place, photos):
+def _align(place, photos, step):
     """Fit the verified photos of a scan once more, where that helps."""
     if not place.to_align:
         return
     alignment = Alignment(place.scan, place.angles)
     for index, (photo, location) in enumerate(zip(photos, place.locations, strict=True)):
         if location.verified:
+            step()
             model = alignment.aligned(photo, location.registration.model, camera_only=location.by_hand)
             # A picture that was warped is placed better by a homography than by the camera that was found.
             reason = location.reason if location.by_hand else model.kind
@@ -156,11 +161,12 @@ def _align(place, photos):
             place.locations[index] = replace(location, registration=registration, reason=reason)
 
 
-def _shown(place, photo, index):
+def _shown(place, photo, index, step):
     """The `View` of a photo on a scan; None, and no longer verified, where it shows nothing that could be used."""
     location = place.locations[index]
     if not location.verified:
         return None
+    step()
     model = location.registration.model
     view = seen_by(photo, model, place.surface)
     if np.count_nonzero(view.usable) >= _LEAST_SEEN:
