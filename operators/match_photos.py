@@ -9,13 +9,14 @@ from ..reflcolor_addon.matching import draw_matches
 from .scene import polls
 from .scene.images import packed_pixels, write_packed
 from .scene.notices import show_result, show_results
-from .scene.photo_colors import keep_cameras, keep_observed
+from .scene.photo_colors import ObservedArrays, keep_cameras, keep_observed_by_steps
 from .scene.photo_list import listed_images
 from .scene.photos import photo_of
 from .scene.provenance import record_matching
 from .scene.scan_object import SHIFT, grid_indices, own_image, scan_reader
-from .scene.seed_list import append_seeds, remove_seeds, seeds_of
+from .scene.seed_list import append_seeds_by_steps, remove_seeds, seeds_of
 from .scene.setting_properties import MATCH_NAMES, MatchArguments, core_settings, keep_used_settings
+from .scene.steps import complete
 from .scene.texts import report_text, shown
 from .scene.verdicts import keep_verdicts
 from .window.jobs import JobOperator
@@ -53,9 +54,11 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
             for obj in objects
         ]
 
+        places = {obj.name: grid_indices(obj) for obj in objects}
+
         def work(progress, cancelled):
             find_seeds(jobs, photos, settings, progress=progress, cancelled=cancelled)
-            return [(job, packed_pixels(draw_matches(job.scan, photos, job.seeds), job.name)) for job in jobs]
+            return [(job, *_ready(job, places[job.name], photos)) for job in jobs]
 
         return work
 
@@ -64,18 +67,21 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
         there, done = [], []
         images = {image.session_uid: image for image in bpy.data.images}
         images = {name: images.get(uid) for name, uid in self._photos.items()}
-        for job, picture in results:
+        for job, *ready in results:
             obj = bpy.data.objects.get(job.name)
             if obj is None or not obj.reflcolor.rows:
                 self.report({"WARNING"}, report_text("{name} is gone; its seeds were dropped", name=job.name))
                 continue
             # Raises if a mesh cannot take the observed colors, before any scan is changed.
             grid_indices(obj)
-            there.append((obj, job, picture))
-        for obj, job, picture in there:
-            keep_observed(obj, job.observed)
+            there.append((obj, job, ready))
+        for obj, job, (arrays, picture) in there:
+            yield
+            yield from keep_observed_by_steps(obj, job.observed, arrays)
             keep_cameras(obj, job.matching.photos, images)
-            take_over_seeds(obj, job.seeds, images)
+            yield
+            yield from take_over_seeds_by_steps(obj, job.seeds, images)
+            yield
             found = [(images[photo.name], photo) for photo in job.matching.photos if images.get(photo.name)]
             keep_verdicts(obj, found)
             record_matching(obj, job.matching, self._settings, MATCH_NAMES)
@@ -87,6 +93,7 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
         counts = ", ".join(f"{obj.name} ({len(matching.seeds)})" for obj, matching in done)
         together = report_text("Found seeds for {count} scans: {counts}", count=len(done), counts=counts)
         show_results(self, [obj for obj, _ in done], together, self._skipped)
+        yield
 
     def _show_found(self, obj, matching, *, one_of_several):
         said = report_text("Found {count} seeds for {name}", count=len(matching.seeds), name=obj.name)
@@ -94,11 +101,19 @@ class REFLCOLOR_OT_match_photos(JobOperator, MatchArguments, bpy.types.Operator)
         show_result(self, obj, said, matching.warnings, details=details, one_of_several=one_of_several)
 
 
-def take_over_seeds(obj, seeds, images=None):
-    """Put the seeds that were found in place of those found before; those picked by hand and locked ones stay.
+def _ready(job, place, photos):
+    """What can be made in the thread of that which is written."""
+    arrays = None if job.observed is None else ObservedArrays.of(job.observed, place)
+    return arrays, packed_pixels(draw_matches(job.scan, photos, job.seeds), job.name)
 
-    ``images``, a dict, tells the photos that the seeds name; else they are found by name.
-    """
+
+def take_over_seeds(obj, seeds):
+    """Put the seeds that were found in place of those found before; those picked by hand and locked ones stay."""
+    complete(take_over_seeds_by_steps(obj, seeds))
+
+
+def take_over_seeds_by_steps(obj, seeds, images=None):
+    """As `take_over_seeds`, by steps; ``images``, a dict, tells the photos that the seeds name, else their names do."""
     replaced = [i for i, seed in enumerate(obj.reflcolor.seeds) if seed.reason != "hand" and not seed.locked]
     remove_seeds(obj, replaced)
     locked = {(seed.row, seed.col) for seed in obj.reflcolor.seeds if seed.locked}
@@ -108,7 +123,7 @@ def take_over_seeds(obj, seeds, images=None):
         for index, (place, reason) in enumerate(zip(places, seeds.reason, strict=True))
         if reason != "hand" and place not in locked
     ]
-    append_seeds(obj, seeds.chosen(found), images)
+    yield from append_seeds_by_steps(obj, seeds.chosen(found), images)
 
 
 classes = (REFLCOLOR_OT_match_photos,)

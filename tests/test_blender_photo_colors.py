@@ -42,6 +42,18 @@ def colorized(blender, scan_file, observed):
     return blender
 
 
+def test_what_was_prepared_for_other_vertices_is_not_written(colorized, observed):
+    obj = colorized.context.active_object
+    module = importlib.import_module(f"{EXTENSION}.operators.scene.photo_colors")
+    before, key = values(obj, ".seen_rgb", np.int32), module.observed_key(obj)
+    rows, cols = (values(obj, name, np.int32) for name in ("grid_row", "grid_col"))
+    other = module.ObservedArrays.of(observed, (rows[::-1], cols[::-1]))
+    assert not np.array_equal(other.values[".seen_rgb"], before)
+    list(module.keep_observed_by_steps(obj, observed, other))
+    np.testing.assert_array_equal(values(obj, ".seen_rgb", np.int32), before)
+    assert module.observed_key(obj) == key
+
+
 def expected(scan_file, observed):
     return colorize(read_scans(scan_file)[0], SEEDS, Settings.preset("Natural"), observed)
 

@@ -1,5 +1,8 @@
 """Work that is shared among threads."""
 
+import os
+import sys
+import threading
 import time
 
 import pytest
@@ -34,3 +37,34 @@ def test_nothing_more_is_begun_when_the_caller_ends_early(allowed):
     next(results)
     results.close()
     assert len(begun) < 100
+
+
+def test_python_is_shared_as_before_once_all_that_let_others_run_have_ended():
+    usual = sys.getswitchinterval()
+    first, second = threads.letting_others_run(), threads.letting_others_run()
+    with first:
+        second.__enter__()
+        assert sys.getswitchinterval() < usual
+    assert sys.getswitchinterval() < usual
+    second.__exit__(None, None, None)
+    assert sys.getswitchinterval() == pytest.approx(usual)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="priorities of threads are Linux's")
+def test_a_thread_in_the_background_and_those_it_starts_run_after_others():
+    def priority():
+        return os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
+
+    def work():
+        threads.run_in_background()
+        found.append(priority())
+        inner = threading.Thread(target=lambda: found.append(priority()))
+        inner.start()
+        inner.join()
+
+    found, own = [], priority()
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    expected = min(own + 5, 19)
+    assert (found, priority()) == ([expected, expected], own)

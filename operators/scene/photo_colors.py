@@ -6,6 +6,7 @@ them to nobody and no export takes them.
 
 import hashlib
 import json
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import bpy
@@ -16,6 +17,7 @@ from ...reflcolor_addon.errors import ScanError
 from ...reflcolor_addon.matching.registration.stored import model_document, model_of
 from ...reflcolor_addon.scan.object_arrays import at_places, on_grid
 from .scan_object import add_values, grid_indices, values_of
+from .steps import complete
 
 _RGB, _WEIGHT, _PHOTO = ".seen_rgb", ".seen_weight", ".seen_photo"
 # Custom property of objects: a key that changes with the observed colors.
@@ -26,6 +28,35 @@ _CAMERAS, _USED = "reflcolor_cameras", "reflcolor_used_cameras"
 _PHOTOS, _USED_PHOTOS = "reflcolor_camera_photos", "reflcolor_used_camera_photos"
 
 
+@dataclass(frozen=True, eq=False)
+class ObservedArrays:
+    """`Observed` colors as an object keeps them, ready for Blender: N vertices.
+
+    Parameters
+    ----------
+    place : ((N,) int32, (N,) int32)
+        Rows and columns of the vertices.
+    values : dict of (N,) int32 or float32
+        By the attribute's name.
+    key : str
+        See `observed_key`.
+    """
+
+    place: tuple[np.ndarray, np.ndarray]
+    values: dict[str, np.ndarray]
+    key: str
+
+    @classmethod
+    def of(cls, observed, place):
+        """Make them of Observed colors, for vertices on these pixels; a thread may call it: no bpy."""
+        rgb, weight, photo = (at_places(image, place) for image in (observed.rgb, observed.weight, observed.photo))
+        values = {_RGB: packed_rgb(rgb), _WEIGHT: weight, _PHOTO: photo.astype(np.int32)}
+        digest = hashlib.sha256()
+        for each in (values[_RGB], weight, photo):
+            digest.update(np.ascontiguousarray(each).tobytes())
+        return cls(place, values, digest.hexdigest())
+
+
 def keep_observed(obj, observed):
     """Keep the `Observed` colors of an object's scan in place of those that are kept; None keeps none.
 
@@ -34,6 +65,11 @@ def keep_observed(obj, observed):
     ScanError
         If the mesh has lost the attributes that tie its vertices to the scan's grid.
     """
+    complete(keep_observed_by_steps(obj, observed))
+
+
+def keep_observed_by_steps(obj, observed, arrays=None):
+    """As `keep_observed`, by steps; ``arrays`` are its ObservedArrays, where a thread has made them before."""
     if observed is None:
         for name in (_RGB, _WEIGHT, _PHOTO):
             if name in obj.data.attributes:
@@ -43,13 +79,12 @@ def keep_observed(obj, observed):
                 del obj[name]
         return
     place = grid_indices(obj)
-    rgb, weight, photo = (at_places(image, place) for image in (observed.rgb, observed.weight, observed.photo))
-    values = {_RGB: packed_rgb(rgb), _WEIGHT: weight, _PHOTO: photo}
-    digest = hashlib.sha256()
-    for name, each in values.items():
-        add_values(obj, name, each)
-        digest.update(np.ascontiguousarray(each).tobytes())
-    obj[_KEY] = digest.hexdigest()
+    if arrays is None or not all(map(np.array_equal, arrays.place, place)):
+        arrays = ObservedArrays.of(observed, place)
+    for name, values in arrays.values.items():
+        yield
+        add_values(obj, name, values)
+    obj[_KEY] = arrays.key
 
 
 def observed_key(obj):

@@ -10,9 +10,12 @@ from .editors import select_only
 from .quiet import point_to, write_quietly
 from .scan_object import grid_indices
 from .seed_arrays import FOUND_BY, seed_arrays
+from .steps import complete
 
 # Up to so many, a person has picked about one for each surface.
 _FEW_SEEDS = 20
+# So many are added to an object in one step.
+_IN_A_STEP = 100
 
 
 class SeedPlace:
@@ -95,13 +98,16 @@ def choose_seed(obj, index):
 
 def append_seeds(obj, seeds, images=None):
     """Add the core's Seeds to the object; photos are found by name in ``images`` or, by default, the .blend's."""
+    complete(append_seeds_by_steps(obj, seeds, images))
+
+
+def append_seeds_by_steps(obj, seeds, images=None):
+    """As `append_seeds`, by steps."""
     images = bpy.data.images if images is None else images
-    listed = obj.reflcolor.seeds
     columns = (seeds.rows, seeds.cols, seeds.rgb / 255, np.nan_to_num(seeds.photo_xy), seeds.confidence, seeds.locked)
-    for row, col, rgb, xy, confidence, locked, photo, reason in zip(
-        *(column.tolist() for column in columns), seeds.photos, seeds.reason, strict=True
-    ):
-        seed = listed.add()
+    columns = [*(column.tolist() for column in columns), seeds.photos, seeds.reason]
+    for number, (row, col, rgb, xy, confidence, locked, photo, reason) in enumerate(zip(*columns, strict=True), 1):
+        seed = obj.reflcolor.seeds.add()
         write_quietly(
             seed,
             row=row,
@@ -113,7 +119,9 @@ def append_seeds(obj, seeds, images=None):
             locked=locked,
         )
         point_to(seed, photo=images.get(photo) if photo else None)
-    choose_seed(obj, len(listed) - 1)
+        if number % _IN_A_STEP == 0:
+            yield
+    choose_seed(obj, len(obj.reflcolor.seeds) - 1)
 
 
 def remove_seeds(obj, indices):

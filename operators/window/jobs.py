@@ -2,16 +2,22 @@
 
 import threading
 import time
+from inspect import isgenerator
 
 import bpy
+from bpy.app.handlers import persistent
 
 from ...reflcolor_addon.errors import Cancelled
+from ...reflcolor_addon.threads import letting_others_run, run_in_background
 from ..scene.editors import redraw_editors, redraw_sidebars
 from ..scene.reports import reported
+from ..scene.steps import complete
 from ..scene.texts import label, report_text, shown
 
 # Seconds between two updates of a job.
 _INTERVAL_S = 0.1
+# Seconds between two steps of writing a result, and how long one goes on before events have their turn.
+_WRITING_INTERVAL_S, _WRITING_S = 0.01, 0.005
 _running = []
 
 
@@ -43,12 +49,15 @@ class Job:
     result : object
     error : BaseException or None
         What came of it, when it is no longer ``alive``.
+    overtaken : bool
+        Whether something was undone since its result began to be written.
     """
 
     def __init__(self, name):
         self.name = name
         self.fraction, self.text = 0.0, ""
         self.result = self.error = None
+        self.overtaken = False
 
     def advance(self):
         """Called by the window now and then, until the job is no longer alive."""
@@ -76,8 +85,10 @@ class ThreadJob(Job):
         return work(None, None)
 
     def _run(self):
+        run_in_background()
         try:
-            self.result = self._work(self._progress, self._cancel.is_set)
+            with letting_others_run():
+                self.result = self._work(self._progress, self._cancel.is_set)
         except BaseException as error:  # every exception goes to the window's thread, which raises it
             self.error = error
 
@@ -147,13 +158,16 @@ class JobOperator:
     """An operator with long work.
 
     A subclass gives ``job_name``, ``prepare(context)``, which reads what it needs from Blender and returns what its
-    ``job_type`` does, and ``finish(context, result)``, which writes the result in one step.
+    ``job_type`` does, and ``finish(context, result)``, which writes the result as one step of undo. Where that takes
+    long, ``finish`` is a generator: at each yield the window is drawn, but no other event has its turn.
     """
 
     job_type = ThreadJob
     # Whether other events must wait, because the work holds on to the scene.
     blocks_events = False
     _job = None
+    # What ``finish`` still has to do, where it is a generator.
+    _writing = None
     _with_window = False
 
     def execute(self, context):
@@ -178,7 +192,7 @@ class JobOperator:
     @reported
     def run_blocking(self, context):
         """Do all of it before returning, as scripts and background mode expect."""
-        self.finish(context, self.job_type.complete(self.prepare(context)))
+        complete(self.finish(context, self.job_type.complete(self.prepare(context))))
         return {"FINISHED"}
 
     @reported
@@ -194,12 +208,14 @@ class JobOperator:
             return {"CANCELLED"}
         self._job = self.job_type(self.job_name, self.prepare(context))
         _running.append(self._job)
-        self._timer = context.window_manager.event_timer_add(_INTERVAL_S, window=context.window)
+        self._set_timer(context, _INTERVAL_S)
         context.window_manager.modal_handler_add(self)
         self._show(context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
+        if self._writing is not None:
+            return self._write(context) if event.type == "TIMER" else {"RUNNING_MODAL"}
         if event.type == "ESC" and event.value == "PRESS" and self._job.alive:
             self._job.cancel()
         elif event.type != "TIMER":
@@ -217,6 +233,9 @@ class JobOperator:
         if self._job is not None:
             self._job.cancel(wait=True)
             self._end(context)
+            if not self._job.overtaken:
+                # Nothing is left half written.
+                complete(self._writing)
 
     @reported
     def _outcome(self, context):
@@ -226,8 +245,34 @@ class JobOperator:
             return {"CANCELLED"}
         if error is not None:
             raise error
-        self.finish(context, self._job.result)
-        return {"FINISHED"}
+        self._writing = self.finish(context, self._job.result)
+        if not isgenerator(self._writing):
+            return {"FINISHED"}
+        self._job.overtaken = False
+        _running.append(self._job)
+        self._set_timer(context, _WRITING_INTERVAL_S)
+        return {"RUNNING_MODAL"}
+
+    @reported
+    def _write(self, context):
+        """Go on with what ``finish`` writes, for a moment."""
+        end, goes_on = time.monotonic() + _WRITING_S, False
+        try:
+            if self._job.overtaken:
+                return {"CANCELLED"}
+            for _ in self._writing:
+                if goes_on := time.monotonic() >= end:
+                    return {"RUNNING_MODAL"}
+            return {"FINISHED"}
+        except ReferenceError:
+            # A script has removed the object between two steps.
+            return {"CANCELLED"}
+        finally:
+            if not goes_on:
+                self._end(context)
+
+    def _set_timer(self, context, seconds):
+        self._timer = context.window_manager.event_timer_add(seconds, window=context.window)
 
     def _show(self, context):
         job = self._job
@@ -244,3 +289,17 @@ class JobOperator:
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         redraw_editors()
+
+
+@persistent
+def _something_was_undone(_scene):
+    """What was written of a result is gone, from another window or by a script: the rest is not written either."""
+    for job in _running:
+        job.overtaken = True
+
+
+handlers = (
+    (bpy.app.handlers.undo_post, _something_was_undone),
+    (bpy.app.handlers.redo_post, _something_was_undone),
+    (bpy.app.handlers.load_post, _something_was_undone),
+)

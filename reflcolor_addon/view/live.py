@@ -14,7 +14,7 @@ from ..color.tone import toned
 from ..errors import Cancelled
 from ..scan.normalization import normalize
 from ..scan.scan import Scan
-from ..threads import in_threads, thread_count
+from ..threads import in_threads, letting_others_run, thread_count
 
 # The coarse result has about this many pixels; a scan that has few more is colorized at once.
 COARSE_PIXELS = 60_000
@@ -106,9 +106,10 @@ class LiveColorizer:
                     return
                 (number, *wanted), self._wish = self._wish, None
             try:
-                if scan is None:
-                    scan = _LiveScan(self._read_scan())
-                self._colorize(scan, number, *wanted)
+                with letting_others_run():
+                    if scan is None:
+                        scan = _LiveScan(self._read_scan())
+                    self._colorize(scan, number, *wanted)
             except Cancelled:
                 continue
             except Exception as error:  # bad input, or a defect: the window distinguishes them
@@ -141,6 +142,7 @@ class _LiveScan:
         edges = np.linspace(0, scan.shape[0], thread_count() + 1).astype(int)
         self._strips = [slice(top, bottom) for top, bottom in pairwise(edges)]
         self._stride = int(np.ceil(np.sqrt(scan.valid.size / COARSE_PIXELS)))
+        self._kept = np.s_[:: self._stride, :: self._stride]
         self._fine = self._coarse = None
 
     def full(self, seeds, settings, observed, cancelled):
@@ -161,6 +163,24 @@ class _LiveScan:
         fewer, _ = replace(seeds, rows=rows, cols=cols).placed_on(self._coarse.scan)
         spread, _ = self._coarse.spread(fewer, settings, cancelled=cancelled)
         colored = self._coarse.joined(spread, fewer, None if observed is None else observed.thinned(self._stride))
+        rgb = (self._of_seeds if settings.light == 1 else self._of_both)(colored, settings)
+        rgb[~self._scan.valid] = 0
+        if settings.light == 1 and colored.weight.any():
+            # Observed colors exist at the full size already.
+            weight = self._enlarged(colored.weight)[..., None] * observed.seen[..., None]
+            rgb = np.rint(rgb + weight * (observed.rgb.astype(np.float32) - rgb)).astype(np.uint8)
+        return rgb
+
+    def _of_seeds(self, colored, settings):
+        """(H, W, 3) uint8 where nothing of the reflectance is in the colors: those of the few pixels, enlarged."""
+        few = _merged(self._luminance[self._kept], colored.values, colored.reached, settings)
+        rgb = self._enlarged(_continued(few, colored.reached))
+        gray = self._scan.valid & (self._enlarged(colored.reached.astype(np.float32)) == 0)
+        rgb[gray] = np.rint(toned(self._luminance[gray], settings.tone))[:, None]
+        return rgb
+
+    def _of_both(self, colored, settings):
+        """(H, W, 3) uint8 with the reflectance of every pixel."""
         # Enlarged together with their mask, so that pixels beside missing values are not mixed with them.
         reached = colored.reached[..., None].astype(np.float32)
         values, share = self._enlarged(colored.values * reached), self._enlarged(reached)
@@ -168,16 +188,10 @@ class _LiveScan:
 
         def paint(strip):
             own = values[strip] / np.maximum(share[strip], np.finfo(np.float32).tiny)[..., None]
-            gray = lightness(self._luminance[strip], own, share[strip] > 0, settings)
-            rgb[strip] = colorspaces.merge(gray, own[..., CHROMINANCE], settings.color_space)
+            rgb[strip] = _merged(self._luminance[strip], own, share[strip] > 0, settings)
 
         for _ in in_threads(paint, self._strips):
             pass
-        rgb[~self._scan.valid] = 0
-        if settings.light == 1 and colored.weight.any():
-            # Observed colors exist at the full size already.
-            weight = self._enlarged(colored.weight)[..., None] * observed.seen[..., None]
-            rgb = np.rint(rgb + weight * (observed.rgb.astype(np.float32) - rgb)).astype(np.uint8)
         return rgb
 
     def _enlarged(self, image):
@@ -189,8 +203,23 @@ class _LiveScan:
         return larger[:height, :width]
 
     def _fewer_pixels(self):
-        kept = np.s_[:: self._stride, :: self._stride]
-        scan = self._scan
+        kept, scan = self._kept, self._scan
         return Scan(
             name=scan.name, points=scan.points[kept], reflectance=scan.reflectance[kept], valid=scan.valid[kept]
         )
+
+
+def _merged(reflectance, values, reached, settings):
+    """(H, W, 3) uint8 of the reflectance and what seeds tell."""
+    gray = lightness(reflectance, values, reached, settings)
+    return colorspaces.merge(gray, values[..., CHROMINANCE], settings.color_space)
+
+
+def _continued(rgb, reached):
+    """(H, W, 3) uint8: around what was reached, the mean of the colors beside it."""
+    import cv2
+
+    share = cv2.blur(reached.astype(np.float32), (3, 3))
+    mean = cv2.blur(rgb * reached[..., None].astype(np.float32), (3, 3))
+    mean /= np.maximum(share, np.finfo(np.float32).tiny)[..., None]
+    return np.where(reached[..., None], rgb, np.rint(mean)).astype(np.uint8)

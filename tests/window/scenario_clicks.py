@@ -84,7 +84,9 @@ def scenario_example_with_its_photo(window):
     yield from window.click_button("reflcolor.open_example")
     yield from imported(window, "cones")
     yield from window.click_button("reflcolor.match_photos")
-    yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 100, 200, "seeds are found in the photo")
+    yield from window.until(
+        lambda: window.running() is None and len(window.scan.reflcolor.seeds) > 100, 200, "seeds are found in the photo"
+    )
     yield from window.screenshot("matched")
     yield from color_and_render(window)
 
@@ -136,6 +138,8 @@ def scenario_image_pair_with_a_photo_of_its_own(window):
     yield from imported(window, "cones")
     window.equal([photo.image.name for photo in window.scene.reflcolor.photos], ["photo.jpg"], "photos")
     yield from window.click_button("reflcolor.match_photos")
-    yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 50, 200, "seeds are found in the photo")
+    yield from window.until(
+        lambda: window.running() is None and len(window.scan.reflcolor.seeds) > 50, 200, "seeds are found in the photo"
+    )
     yield from window.screenshot("matched")
     yield from color_and_render(window)

@@ -15,7 +15,11 @@ def prepared(window):
 def scenario_match_finds_seeds_and_keeps_picked_ones(window):
     yield from prepared(window)
     yield from window.click_button("reflcolor.match_photos")
-    yield from window.until(lambda: len(window.scan.reflcolor.seeds) > 100, 200, "more than 100 seeds are found")
+    yield from window.until(
+        lambda: window.running() is None and len(window.scan.reflcolor.seeds) > 100,
+        200,
+        "more than 100 seeds are found",
+    )
     seeds = window.scan.reflcolor.seeds
     window.equal((seeds[0].row, seeds[0].col, seeds[0].reason), (10, 20, "hand"), "the seed picked by hand")
     (verdict,) = window.scan.reflcolor.verdicts
