@@ -166,8 +166,8 @@ class JobOperator:
     # Whether other events must wait, because the work holds on to the scene.
     blocks_events = False
     _job = None
-    # What ``finish`` still has to do, where it is a generator.
-    _writing = None
+    # What the status bar says of it, and what ``finish`` still has to do, where it is a generator.
+    _told, _writing = "", None
     _with_window = False
 
     def execute(self, context):
@@ -276,11 +276,14 @@ class JobOperator:
 
     def _show(self, context):
         job = self._job
-        if context.workspace is not None:
-            going_on = f"{job.fraction:.0%}  {shown(job.text)}   |   {label('ESC: Cancel')}"
-            text = label("Cancelling") if job.stopping else going_on
-            context.workspace.status_text_set(f"{label(job.name)}:  {text}")
-        redraw_sidebars()
+        going_on = f"{job.fraction:.0%}  {shown(job.text)}   |   {label('ESC: Cancel')}"
+        text = f"{label(job.name)}:  {label('Cancelling') if job.stopping else going_on}"
+        # Drawing the window takes processors away from the work.
+        if text != self._told:
+            self._told = text
+            if context.workspace is not None:
+                context.workspace.status_text_set(text)
+            redraw_sidebars()
 
     def _end(self, context):
         context.window_manager.event_timer_remove(self._timer)
