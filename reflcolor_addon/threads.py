@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 
 # Seconds after which Python lets a waiting thread run, and by how much a thread in the background is nicer.
-_SOON_S, _NICER = 0.0005, 5
+_SOON_S, _NICER = 0.0005, 3
 
 _limit = None
 _considerate, _usual_s = 0, 0.0

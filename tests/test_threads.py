@@ -66,5 +66,5 @@ def test_a_thread_in_the_background_and_those_it_starts_run_after_others():
     thread = threading.Thread(target=work)
     thread.start()
     thread.join()
-    expected = min(own + 5, 19)
+    expected = min(own + threads._NICER, 19)
     assert (found, priority()) == ([expected, expected], own)
