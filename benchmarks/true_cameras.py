@@ -43,7 +43,7 @@ def every():
     for own, other in [(a, b) for a in range(6) for b in (a - 1, a + 1) if 0 <= b < 6]:
         yield _view(BILDSTEIN[own], BILDSTEIN[other])
     for name in trust_cases.PAIRS:
-        yield _pair(name)
+        yield pair(name)
 
 
 def _view(own, other):
@@ -59,7 +59,8 @@ def _view(own, other):
     return Known(f"{scan.name}, {other}", scan, photo, camera, project, scan.color, real_scans.has_truth(scan))
 
 
-def _pair(name):
+def pair(name):
+    """Return one of the pairs of lidar and camera."""
     folder = DATA / "pairs" / name
     scan, photo = trust_cases.scan(name), read_image(folder / "photo.jpg")
     lens = json.loads((folder / "calibration.json").read_text("utf-8"))

@@ -12,7 +12,9 @@ several bars, how many wrong and how many right photos reach them.
 The file has one JSON object a line for each try: key (scan|holes|kind|photo, by which a try is known again), scan,
 holes, kind, photo, verified, evidence (1 is needed), found_by, off (how far the camera is off as a share of the photo's
 width, where the true one is known), seconds (of the processor), code (the state of the modules that decide a verdict,
-without comments: tries of another state are not counted and are made anew) and numbers (the fields of Evidence).
+without comments: tries of another state are not counted and are made anew), numbers (the fields of Evidence) and wide
+(what registration/repetition.py looks at, whatever the verdict: how many tiles are in place, how many of these in
+windows three times as wide, and the mean score of all there), so that another measure or bar can be judged afterward.
 """
 
 import argparse
@@ -31,7 +33,10 @@ import numpy as np
 
 from benchmarks import trust_cases
 from reflcolor_addon.matching.photo_image import PhotoImage
+from reflcolor_addon.matching.registration.fitting import FINE
 from reflcolor_addon.matching.registration.registration import ScanViews, register
+from reflcolor_addon.matching.registration.tiles import surfaces
+from reflcolor_addon.matching.registration.verification import RADIUS, in_place
 
 RESULTS = Path("build/trust.jsonl")
 # Of each kind, for one scan with one kind of holes, so that about half are photographs; others of these for each scan.
@@ -140,7 +145,19 @@ def _tried(group, arguments, known, photographs, ends):
             "seconds": round(time.process_time() - started, 2),
             "code": _code(),
             "numbers": {name: float(value) for name, value in vars(proof).items()},
+            "wide": _in_wide_windows(views, photo, found.model),
         }
+
+
+def _in_wide_windows(views, photo, model):
+    """The tiles in place, those that still are in windows three times as wide, and their mean score; None where too few
+    are seen."""
+    found = model and surfaces(views.image(FINE[0]), views.tiles(*FINE), photo, model, 3 * RADIUS)
+    if found is None:
+        return None
+    near, still = in_place(found.scores[:, 2 * RADIUS : -2 * RADIUS, 2 * RADIUS : -2 * RADIUS]), in_place(found.scores)
+    middle = found.scores[:, found.radius, found.radius].mean()
+    return {"in_place": int(near.sum()), "held": int((near & still).sum()), "mean": round(float(middle), 3)}
 
 
 def table(tries):
