@@ -5,8 +5,12 @@ import numpy as np
 import painted_room
 import pytest
 
+from reflcolor_addon.matching.models import GridHomography
 from reflcolor_addon.matching.photo_image import PhotoImage
+from reflcolor_addon.matching.registration import registration
 from reflcolor_addon.matching.registration.alignment import Alignment
+from reflcolor_addon.matching.registration.registration import Registration, ScanViews
+from reflcolor_addon.matching.registration.verification import evidence
 
 
 @pytest.fixture(scope="module")
@@ -36,3 +40,17 @@ def test_a_photo_from_aside_keeps_its_camera(room):
     points = room.points[room.valid]
     off = np.linalg.norm(found.project(points)[0] - camera.project(points)[0], axis=1)
     assert np.nanmedian(off) < 1
+
+
+def test_a_homography_that_is_off_by_some_pixels_is_right_once_fitted_again(room):
+    height, width = room.shape
+    views, photo = ScanViews(room), PhotoImage("picture", cv2.resize(room.color, (2 * width, 2 * height)))
+    off_by_some = GridHomography(
+        np.array([[2.04, 0, 3], [0.02, 1.97, 4], [0, 0, 1]]), room.shape, photo.width, photo.height
+    )
+    rough = Registration(off_by_some, evidence(views.image(0.5), photo, off_by_some), "features")
+    assert not rough.clear
+    found = registration._again(views, photo, rough, np.random.default_rng(0))
+    assert found.clear and found.better_than(rough)
+    grid = np.array([[20.0, 20], [width - 20, 20], [width - 20, height - 20], [20, height - 20]])
+    assert np.abs(found.model.project(grid)[0] - 2 * grid).max() < 2
