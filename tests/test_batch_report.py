@@ -150,7 +150,7 @@ def test_scans_whose_photo_seems_to_show_two_places_are_warned_of(archive, batch
     assert rows["hall_2"]["warnings"] == "0"
     assert rows["hall_0"]["warnings"] == rows["hall_1"]["warnings"] == "1"
     assert "a.png: gives no colors here: it shows hall_0" in rows["hall_1"]["note"]
-    assert "Photos that seem to show several places" in (archive / "colored" / "report.html").read_text("utf-8")
+    assert "<p>Contradictions</p>" in (archive / "colored" / "report.html").read_text("utf-8")
 
 
 def test_a_name_that_is_markup_is_shown_as_text(tmp_path, monkeypatch):

@@ -121,11 +121,11 @@ def _add_tried(entries, pairs):
 
 
 def _add_doubts(entry, doubts):
-    """Warn of photos that seem to show several places."""
+    """Warn of photos that contradict each other, or seem to show several places."""
     if doubts:
         entry["warnings"] = (entry["warnings"] or 0) + len(doubts)
         entry["note"] = "; ".join(filter(None, (entry["note"], *doubts)))
-        entry["details"] = "<p>Photos that seem to show several places</p>" + _list(doubts) + entry["details"]
+        entry["details"] = "<p>Contradictions</p>" + _list(doubts) + entry["details"]
 
 
 def _add_scans(entries, scans):
