@@ -8,7 +8,9 @@ import pytest
 from e57_samples import write_e57
 from hypothesis import given
 from hypothesis import strategies as st
+from small_scans import random_scan
 
+from reflcolor_addon.batch.archive import two_looks
 from reflcolor_addon.batch.archive.candidates import (
     ALL_PAIRS,
     _Neighbors,
@@ -19,8 +21,13 @@ from reflcolor_addon.batch.archive.candidates import (
     ranks,
     telling,
 )
+from reflcolor_addon.batch.archive.folder import BatchFolder
+from reflcolor_addon.batch.archive.looks import look_at
 from reflcolor_addon.files.exif import Moment, moment_of
+from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.readers.e57_file import acquired_at
+from reflcolor_addon.files.readers.options import ReadOptions
+from reflcolor_addon.files.writers import write_ptx
 
 NOON = "2024:05:17 12:00:00"
 _NOON_S = datetime(2024, 5, 17, 12, tzinfo=UTC).timestamp()
@@ -184,3 +191,23 @@ def test_neighbors_are_those_that_comparing_each_with_each_finds(given_moments):
     for photo, own in moments.items():
         expected = [other for other, its in moments.items() if other != photo and taken_together(own, its)]
         assert neighbors.of(photo) == expected
+
+
+def test_a_second_look_takes_up_the_directions_of_the_first_one(tmp_path, monkeypatch):
+    scan = random_scan(shape=(40, 60))
+    write_ptx(scan, tmp_path / "a.ptx")
+    gray = np.uint8(255 * (scan.reflectance - scan.reflectance.min()) / np.ptp(scan.reflectance))
+    write_png(tmp_path / "a.png", np.kron(gray, np.ones((4, 4), np.uint8))[..., None].repeat(3, axis=2))
+    (folder := BatchFolder(tmp_path / "colored")).make()
+    files = [str(tmp_path / name) for name in ("a.ptx", "a.png")]
+    request = {"folder": str(folder.root), "scans": files[:1], "photos": files[1:], "reading": ReadOptions().as_dict()}
+
+    def looked(second, **hashes):
+        whole = request | {"hashes": dict(zip(files, ("scan", "photo"), strict=True)) | hashes, "second": second}
+        return look_at(whole, progress=lambda *_: None, cancelled=lambda: False)["scores"][files[1]]
+
+    anew = looked(True, **{files[1]: ""})
+    assert looked(False) > 0
+    # Searched for anew, they would not be found.
+    monkeypatch.setattr(two_looks, "Search", None)
+    assert looked(True) == anew

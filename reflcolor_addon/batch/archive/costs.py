@@ -15,7 +15,7 @@ _MEMORY, _MEMORY_PER_PIXEL = 350 << 20, 450
 # Seconds of one processor for each scan, each million of its pixels, and each photo that it is matched with; for each
 # photo that is looked at, and looked at again.
 SECONDS, SECONDS_PER_MEGAPIXEL, SECONDS_PER_PAIR = 1.5, 8.0, 10.0
-SECONDS_PER_LOOK, SECONDS_PER_SECOND_LOOK = 0.25, 0.5
+SECONDS_PER_LOOK, SECONDS_PER_SECOND_LOOK = 0.25, 0.25
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -39,10 +39,14 @@ def look_at(request, *, progress, cancelled):
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
     scans = [hashes[str(file)] for path in request["scans"] for file in scan_files(Path(path))]
     # Files that could not be hashed cannot be told from one another: nothing is kept about them.
-    look, second = (second_look, ["second"]) if request["second"] else (first_look, [])
-    key = digest_of([program_digest(), request["reading"], *scans, *second]) if all(scans) else None
-    known = (key and folder.recall(KIND, key)) or {}
-    scores = {path: known[hashes[path]] for path in request["photos"] if hashes[path] in known}
+    second = request["second"]
+    first_key, second_key = (
+        digest_of([program_digest(), request["reading"], *scans, *more]) if all(scans) else None
+        for more in ([], ["second"])
+    )
+    key = second_key if second else first_key
+    known, firsts = _recalled(folder, key), _recalled(folder, first_key) if second else {}
+    scores = {path: _score(known[hashes[path]]) for path in request["photos"] if hashes[path] in known}
     problems, missing = {}, [path for path in request["photos"] if path not in scores]
     views = _views(request, progress, cancelled) if missing else []
 
@@ -59,14 +63,30 @@ def look_at(request, *, progress, cancelled):
             except ReflcolorError as error:
                 problems[path] = without_file(error.message)
                 continue
-            scores[path] = max((look(own, photo, step) for own in views), default=0.0)
+            before = firsts.get(hashes[path])
+            looked = [first_look(own, photo, step) for own in views] if before is None else before
+            if second:
+                ways = [directions for _, directions in looked]
+                looked = [
+                    [second_look(own, photo, directions, step), []] for own, directions in zip(views, ways, strict=True)
+                ]
+            scores[path] = _score(looked)
             if hashes[path]:
-                known[hashes[path]] = scores[path]
+                known[hashes[path]] = looked
     finally:
         if missing and key:
             folder.remember(KIND, key, known)
     worked = (1 + len(missing)) / (1 + len(request["photos"])) if missing else 0.0
     return {"scores": scores, "problems": problems, "worked": worked}
+
+
+def _recalled(folder, key):
+    """What looks have found, for the hash of each photo: score and directions on each scan."""
+    return (key and folder.recall(KIND, key)) or {}
+
+
+def _score(looked):
+    return max((score for score, _ in looked), default=0.0)
 
 
 def _views(request, progress, cancelled):

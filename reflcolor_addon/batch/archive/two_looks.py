@@ -3,10 +3,13 @@
 They are good to put pairs in an order, never to believe one: matching decides.
 """
 
+from dataclasses import astuple
+
 import numpy as np
 
 from ...matching.registration.fitting import refined
 from ...matching.registration.search import Search
+from ...matching.registration.sphere_map import Guess
 from ...matching.registration.verification import RADIUS, TILE
 
 _GUESSES = 6
@@ -29,22 +32,29 @@ def first_look(views, photo, step=lambda: None):
 
     Returns
     -------
-    float
+    score : float
         0 where nothing can be told.
+    directions : list of list
+        The best ones, which can be written as JSON; see `second_look`.
     """
-    guesses = _guesses(views, photo, step)
-    return float(max(guesses[0].score, 0.0)) if guesses else 0.0
+    guesses = []
+    if views.untestable is None and np.ptp(photo.gray) > 0:
+        guesses = Search(views, photo).directions(step)[:_GUESSES]
+    directions = [[*map(float, astuple(guess)[:-1]), list(map(float, guess.center))] for guess in guesses]
+    return max(directions[0][0], 0.0) if directions else 0.0, directions
 
 
-def second_look(views, photo, step=lambda: None):
+def second_look(views, photo, directions, step=lambda: None):
     """Return how much speaks for the best of a few directions once tiles of the scan were fitted to each.
 
-    Unlike what `first_look` returns, this can be compared between scans. It takes about twice as long.
+    Unlike what `first_look` returns, this can be compared between scans. It takes about half as long.
 
     Parameters
     ----------
     views, photo, step
         As `first_look`.
+    directions : list of list
+        What that returned.
 
     Returns
     -------
@@ -52,15 +62,9 @@ def second_look(views, photo, step=lambda: None):
         See `Evidence.strength`; 0 where nothing can be told.
     """
     rng, best = np.random.default_rng(0), 0.0
-    for guess in _guesses(views, photo, step)[:_GUESSES]:
+    for *numbers, center in directions:
         step()
-        camera = guess.camera(photo)
+        camera = Guess(*numbers, tuple(center)).camera(photo)
         _, proof = refined(views, photo, camera, [_LEVEL], free=camera.ROTATION, rng=rng)
         best = max(best, proof.strength)
     return float(best)
-
-
-def _guesses(views, photo, step):
-    if views.untestable is not None or np.ptp(photo.gray) == 0:
-        return []
-    return Search(views, photo).directions(step)
