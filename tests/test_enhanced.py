@@ -86,6 +86,18 @@ def test_seeds_of_a_person_give_the_same_bytes_anew_or_at_once_and_with_any_numb
     assert results[0].rgb.tobytes() != evenly.rgb.tobytes()
 
 
+def test_seeds_of_the_program_s_own_are_no_person_s_however_they_look(monkeypatch):
+    scan = random_scan(shape=(14, 17))
+    seeds = seeds_of(scan)
+    found = dataclasses.replace(seeds, reason=("pose",) * len(seeds))
+    evenly = colorize(scan, found, ENHANCED).rgb
+    monkeypatch.setattr("reflcolor_addon.color.spreader.picked_by_a_person", lambda *_: 0.7)
+    colorizer = Colorizer(scan, ENHANCED)
+    np.testing.assert_array_equal(colorizer.colorize(found).rgb, evenly)
+    locked = dataclasses.replace(found, locked=np.ones(len(found), bool))
+    assert (colorizer.colorize(locked).rgb != evenly).any()
+
+
 def test_with_seeds_picked_by_hand_no_preset_is_farther_from_the_truth_than_the_paper():
     scan, known = load("cones")
     folder = EXAMPLES / "cones"

@@ -68,12 +68,27 @@ def test_seeds_that_pass_for_a_person_s_leave_the_pixels_to_the_paths():
     assert mixture(GOOD, BAD, APART, 0.6, 1).share(np.array([32.0])) < 0.05
 
 
+# No seed, one seed that counts alone, two and three that are equally near.
+WEIGHT = np.array([0, 1, 2, 3], np.float32)
+
+
 def test_unsmoothed_paths_count_where_smoothed_ones_do_not_tell_a_person_s_seeds_apart():
-    # No seed, one seed that counts alone, two and three that are equally near.
-    weight = np.array([0, 1, 2, 3], np.float32)
-    np.testing.assert_allclose(unsmoothed_share(weight, 1.0), [0, 0, 3 / 4, 8 / 9], rtol=1e-6)
-    np.testing.assert_allclose(unsmoothed_share(weight, 0.5), [0, 0, 3 / 8, 4 / 9], rtol=1e-6)
-    assert not unsmoothed_share(weight, 0.0).any()
+    np.testing.assert_allclose(unsmoothed_share(WEIGHT, 1.0, GOOD, BAD), [0, 0, 3 / 4, 8 / 9], rtol=1e-6)
+    np.testing.assert_allclose(unsmoothed_share(WEIGHT, 0.5, GOOD, BAD), [0, 0, 3 / 8, 4 / 9], rtol=1e-6)
+    assert not unsmoothed_share(WEIGHT, 0.0, GOOD, BAD).any()
+
+
+def test_unsmoothed_paths_take_over_sooner_where_they_foretell_left_out_seeds_better():
+    shares = [unsmoothed_share(WEIGHT, 1.0, GOOD * factor, GOOD) for factor in (1.0, 1.02, 1.05, 2.0)]
+    np.testing.assert_allclose(shares[0], [0, 0, 3 / 4, 8 / 9], rtol=1e-6)
+    assert (shares[0][2:] < shares[1][2:]).all() and (shares[1][2:] < shares[2][2:]).all()
+    np.testing.assert_allclose(shares[2], [0, 0, 1 - 2.0**-8, 1 - 3.0**-8], rtol=1e-6)
+    np.testing.assert_array_equal(shares[3], shares[2])
+
+
+def test_seeds_of_one_color_give_unsmoothed_paths_no_more():
+    nothing = np.zeros((3, 2))
+    np.testing.assert_allclose(unsmoothed_share(WEIGHT, 1.0, nothing, nothing), [0, 0, 3 / 4, 8 / 9], rtol=1e-6)
 
 
 def test_a_seed_is_no_neighbor_of_its_own():

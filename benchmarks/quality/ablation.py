@@ -15,7 +15,6 @@ import numpy as np
 from reflcolor_addon.color import colorspaces, kriging, mixing
 from reflcolor_addon.color.evaluation import evaluate
 from reflcolor_addon.color.luminance import CHROMINANCE, channels_of, lightness, seed_values
-from reflcolor_addon.color.spreader import UNSMOOTHED_NEAREST
 from reflcolor_addon.geodesic.blending import leave_one_out
 from reflcolor_addon.geodesic.engines import engine_for
 from reflcolor_addon.geodesic.graph import PixelGraph
@@ -90,8 +89,11 @@ class Case:
             alpha *= mixing.PICKED_GAIN**picked
             mean, _ = found.blend(colors, alpha)
             chroma = mean.values[CHROMINANCE]
-            other, _ = found_over(self.luminance, UNSMOOTHED_NEAREST).blend(colors[:, CHROMINANCE], alpha)
-            chroma += unsmoothed(mean.weight, picked) * (other.values - chroma)
+            own, rest = colors[:, CHROMINANCE], (colors - leave_one_out(*near, colors, alpha))[:, CHROMINANCE]
+            other_found = found_over(self.luminance, nearest)
+            other, _ = other_found.blend(own, alpha)
+            other_rest = own - leave_one_out(*other_found.at(self.pixels), own, alpha)
+            chroma += unsmoothed(mean.weight, picked, rest, other_rest) * (other.values - chroma)
         return np.moveaxis(mean.values, 0, -1), colors - leave_one_out(*near, colors, alpha)
 
     def picked(self):
@@ -167,9 +169,9 @@ def variants(case):
     for share in (0.4, 0.6, 0.8):
         yield f"share of kriging {share} at every pixel", case.errors(case.mix(paths, krige, share=share)[0])
     for name, share in (
-        ("paths over the smoothed reflectance alone", lambda weight, picked: np.float32(0)),
-        ("paths over the reflectance as it is alone", lambda weight, picked: np.float32(picked)),
-        ("half of each kind of path", lambda weight, picked: np.float32(picked / 2)),
+        ("paths over the smoothed reflectance alone", lambda weight, picked, *_: np.float32(0)),
+        ("paths over the reflectance as it is alone", lambda weight, picked, *_: np.float32(picked)),
+        ("half of each kind of path", lambda weight, picked, *_: np.float32(picked / 2)),
     ):
         yield (
             f"seeds picked by hand: {name}",

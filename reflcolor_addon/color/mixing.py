@@ -8,7 +8,8 @@ geodesic distance r to the nearest seed,
 and q is the one with which the seeds are estimated best when each is left out. Seeds that a person picked are no such
 test: one on each surface, they are far from each other, while most pixels are near to one. There the paths are trusted,
 and with up to twice the alpha, as the paper has it. Where paths over the smoothed reflectance do not tell several such
-seeds apart, smoothing has opened the border between two surfaces, and paths over the reflectance as it is take over.
+seeds apart, smoothing has opened the border between two surfaces, and paths over the reflectance as it is take over,
+the sooner, the better these estimate left-out seeds.
 """
 
 import math
@@ -27,7 +28,10 @@ _EXPECTED_SEEDS = 30
 # Between the first and the second value seeds count as picked by a person to a growing degree. First pair: variation of
 # the angles between neighbors, relative to their mean. Second: median distance from pixels to seeds, relative to that
 # between seeds.
-_UNEVEN, _NEAR = (0.15, 0.35), (0.85, 0.7)
+_UNEVEN, _NEAR = (0.22, 0.31), (0.85, 0.7)
+# From the first to the second value of the error of left-out seeds along smoothed paths, relative to that along paths
+# over the reflectance as it is, the latter take over sooner.
+_BETTER = (1.0, 1.05)
 
 
 class Mixture(NamedTuple):
@@ -94,7 +98,7 @@ def picked_by_a_person(directions, apart, least):
     return float(_step(uneven, *_UNEVEN) * _step(near, *_NEAR))
 
 
-def unsmoothed_share(weight, picked):
+def unsmoothed_share(weight, picked, smoothed_residuals, residuals):
     """Return the share of the paths over the reflectance as it is, beside those over the smoothed one: float32, 0 to 1.
 
     Parameters
@@ -104,9 +108,15 @@ def unsmoothed_share(weight, picked):
         seed alone counts, 2 where two are equally near, and so on.
     picked : float, 0 to 1
         As in `mixture`.
+    smoothed_residuals, residuals : (S, C) float
+        Values of each seed, less the estimate from the others along either kind of paths.
     """
-    weight = np.maximum(weight, np.float32(1))
-    return np.float32(picked) * (1 - 1 / (weight * weight))
+    smoothed, unsmoothed = (np.linalg.norm(off, axis=1).sum() for off in (smoothed_residuals, residuals))
+    better = np.float32(_step(smoothed / unsmoothed, *_BETTER)) if unsmoothed > 0 else np.float32(smoothed > 0)
+    squared = np.maximum(weight, np.float32(1)) ** 2
+    fourth = squared * squared
+    alone = 1 / squared
+    return np.float32(picked) * (1 - alone + better * (alone - 1 / (fourth * fourth)))
 
 
 def nearest_other(distances, seeds):

@@ -28,8 +28,6 @@ HALF_CONFIDENCE_LEVELS = 5.0
 _POLL_S = 0.02
 # Shares of the progress of a colorization.
 _SMOOTHED, _PROPAGATED, SPREAD = 0.5, 0.75, 0.95
-# Nearest seeds along paths over the reflectance as it is, where the settings do not ask for fewer, or for all.
-UNSMOOTHED_NEAREST = 4
 # Peak bytes per pixel of kriging, and of what was found already while paths are sought once more.
 _KRIGING_BYTES, _UNSMOOTHED_BYTES = 100, 40
 
@@ -157,19 +155,20 @@ class Spreader:
             )
         # The tone, the share of the seeds' luminance, and observed colors do not change what is spread.
         asked = replace(self.settings, tone=1.0, light=float(self.settings.light > 0), photo_colors=False)
-        wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), asked
+        by_person = float(seeds.of_a_person.mean())
+        wanted = seeds.rows.tobytes(), seeds.cols.tobytes(), seeds.rgb.tobytes(), by_person, asked
         if self._held is None or self._held[0] != wanted:
             self._held = None
             pixels = np.ravel_multi_index((seeds.rows, seeds.cols), self.scan.shape)
             values = seed_values(seeds.rgb, self.settings)
-            self._held = wanted, self._spread_from(pixels, values, kriging, progress, cancelled)
+            self._held = wanted, self._spread_from(pixels, values, by_person, kriging, progress, cancelled)
         spread = self._held[1]
         if not self.keeps:
             self._held = None
         return spread, warnings
 
-    def _spread_from(self, pixels, values, kriging, progress, cancelled):
-        """Return the Spread of seeds on these pixels."""
+    def _spread_from(self, pixels, values, by_person, kriging, progress, cancelled):
+        """Return the Spread of seeds on these pixels, so great a share of which a person picked or locked."""
         if kriging and self._features is None:
             # Computed in parallel with the paths; after a cancellation nobody waits for it.
             pool = ThreadPoolExecutor(1, "reflcolor")
@@ -184,22 +183,27 @@ class Spreader:
         alpha, picked = self.settings.alpha, 0.0
         if kriging:
             apart = nearest_other(*near)
-            picked = picked_by_a_person(self._directions(pixels), apart, mean.least[self.scan.valid])
+            # The program's own are spaced evenly, however they look.
+            picked = by_person * picked_by_a_person(self._directions(pixels), apart, mean.least[self.scan.valid])
             if picked > 0:
                 alpha *= PICKED_GAIN**picked
                 mean = again(alpha)
+            path_residuals = values - leave_one_out(*near, values, alpha)
         # It holds arrays as large as the result.
         del again
         spread = mean.values
         if twice and picked > 0:
-            unsmoothed = self._unsmoothed(pixels, values[:, CHROMINANCE], alpha, progress, cancelled)
+            chroma = values[:, CHROMINANCE]
+            unsmoothed, nearby = self._unsmoothed(pixels, chroma, alpha, progress, cancelled)
+            residuals = path_residuals[:, CHROMINANCE], chroma - leave_one_out(*nearby, chroma, alpha)
             # Luminance is left as it is: it changes within surfaces, too, and noise does it more harm.
-            spread[CHROMINANCE] += unsmoothed_share(mean.weight, picked) * (unsmoothed - spread[CHROMINANCE])
+            spread[CHROMINANCE] += unsmoothed_share(mean.weight, picked, *residuals) * (
+                unsmoothed - spread[CHROMINANCE]
+            )
         reached = np.isfinite(mean.least)
         confidence = np.where(reached, 1 / (1 + mean.least / _HALF_CONFIDENCE), 0)
         if kriging:
             estimate, kriging_residuals = self._krige(pixels, values, progress, cancelled)
-            path_residuals = values - leave_one_out(*near, values, alpha)
             unit = colorspaces.levels_per_unit(self.settings.color_space)
             confidence /= 1 + np.hypot(*(estimate - spread)[CHROMINANCE]) * unit / HALF_CONFIDENCE_LEVELS
             for part, name in zip(channels_of(self.settings), ("kriging", "kriging_of_luminance"), strict=False):
@@ -213,19 +217,17 @@ class Spreader:
         return Spread(np.moveaxis(spread, 0, -1), confidence, mean.nearest_seed, method)
 
     def _unsmoothed(self, pixels, values, alpha, progress, cancelled):
-        """(C, H, W) float32: what paths give over the reflectance as it is."""
+        """(C, H, W) float32: what paths give over the reflectance as it is; and what lies near each seed along them."""
 
         def report(done, text):
             progress(_SMOOTHED + (_PROPAGATED - _SMOOTHED) * done, text)
 
-        nearest = self.settings.nearest
-        if isinstance(nearest, int):
-            nearest = min(nearest, UNSMOOTHED_NEAREST)
-        settings = replace(self.settings, alpha=alpha, nearest=nearest)
+        settings = replace(self.settings, alpha=alpha)
         paths = self._unsmoothed_paths or self._paths_over(self._luminance, bounded=False)
         if self.keeps:
             self._unsmoothed_paths = paths
-        return paths.spread(pixels, values, settings, report, cancelled).mean.values
+        found = paths.spread(pixels, values, settings, report, cancelled)
+        return found.mean.values, found.near
 
     def _directions(self, pixels):
         """(S, 3): unit vectors; 0 at the scanner's own place."""
