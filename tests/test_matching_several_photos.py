@@ -9,6 +9,7 @@ import pytest
 
 from reflcolor_addon.matching.photo_image import PhotoImage
 from reflcolor_addon.matching.transfer.fusion import fused
+from reflcolor_addon.matching.transfer.rims import islands
 from reflcolor_addon.matching.transfer.several_photos import gains
 from reflcolor_addon.matching.transfer.sharing import shared
 from reflcolor_addon.matching.transfer.surface import GridSurface
@@ -122,6 +123,34 @@ def test_a_camera_that_is_off_paints_no_ghost_beside_an_outline(room, surface, z
     reddish = observed.rgb[..., 0].astype(int) - observed.rgb[..., 1] > 60
     assert reddish[box & observed.seen].mean() > 0.9
     assert not (reddish & wall & observed.seen).any()
+
+
+def test_a_small_part_that_is_cut_off_and_mostly_doubtful_is_left_out():
+    seen, sure = np.zeros((60, 80), bool), np.zeros((60, 80), bool)
+    seen[:40], sure[5:40] = True, True
+    doubtful, trusted, large = np.s_[45:50, 5:10], np.s_[45:50, 20:25], np.s_[45:60, 40:80]
+    for part in (doubtful, trusted, large):
+        seen[part] = True
+    sure[45:47, 5:10], sure[45:48, 20:25] = True, True
+    expected = np.zeros_like(seen)
+    expected[doubtful] = True
+    np.testing.assert_array_equal(islands(seen, sure), expected)
+    assert not islands(np.zeros_like(seen), sure).any()
+
+
+def test_what_a_camera_beside_the_scanner_sees_through_a_gap_is_left_out(room, surface):
+    ahead, aside = (view(surface, painted_room.camera(place)) for place in SIDES[:2])
+    gap = np.zeros(room.shape, bool)
+    rows, cols = np.nonzero(ahead.usable & aside.usable & (room.points[..., 1] > 4.99))
+    middle = len(rows) // 2
+    gap[rows[middle] - 3 : rows[middle] + 3, cols[middle] - 3 : cols[middle] + 3] = True
+    around = cv2.dilate(gap.astype(np.uint8), np.ones((9, 9))) > 0
+    through = [
+        replace(seen, usable=seen.usable & (gap | ~around), doubtful=seen.doubtful | gap) for seen in (ahead, aside)
+    ]
+    from_scanner, from_beside = (blended(surface, [seen]).seen for seen in through)
+    assert (gap & through[1].usable).any() and not (gap & from_beside).any()
+    assert (gap & from_scanner).any()
 
 
 def test_a_darker_photo_is_brought_to_the_brightness_of_the_other(surface):

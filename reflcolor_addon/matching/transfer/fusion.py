@@ -13,7 +13,7 @@ from ...srgb import linear_to_srgb8, srgb8_to_linear
 from .inference import Inference
 from .outliers import outliers
 from .reduced import Reduced
-from .rims import ghosts
+from .rims import ghosts, islands
 
 # Shares of the grid's longer side: over which a photo comes in from its border, and over which differences are blended.
 _FEATHER, _BLEND = 0.03, 0.03
@@ -71,7 +71,11 @@ def fused(views, photo_gains, surface):
     weight = np.where(behind, np.float32(_BEHIND), np.where(doubtful, np.float32(_AGREEING), np.float32(1)))
     weight[leader < 0] = 0
     # From the scanner's own place a photo shows as much of everything as the scan.
-    lost = ghosts(rgb, (leader >= 0) & ~doubtful, doubtful & aside, surface.scan, reduced, inference)
+    seen = leader >= 0
+    cut_off = islands(seen, seen & ~doubtful) & aside
+    lost = cut_off | ghosts(
+        rgb, seen & ~doubtful & ~cut_off, doubtful & aside & ~cut_off, surface.scan, reduced, inference
+    )
     weight[lost], leader[lost], rgb[lost] = 0, -1, 0
     return Observed(rgb, weight, leader)
 

@@ -2,7 +2,8 @@
 
 Beside an outline a camera that is slightly off shows another thing, a ghost of it on this one; and what the scanner
 never saw may stand in the way. What a photo shows at such places is kept where it agrees with what it shows farther in
-on the same surface, or with the color that is inferred there.
+on the same surface, or with the color that is inferred there. A small part that is cut off from the rest and mostly
+doubtful is left out as a whole: it is what shows through gaps, most often something that the scanner did not see.
 """
 
 import numpy as np
@@ -16,6 +17,8 @@ from ...scan.normalization import normalize
 _GHOST = 20.0
 _NEAREST, _ALPHA, _STEP = 6, 2.0, 1.0
 _LEAST_SHARE = 0.5
+# Of all that was seen: parts that are smaller count as small; and which share of one must be sure.
+_SMALL, _LEAST_SURE = 0.02, 0.5
 
 
 def ghosts(rgb, sure, doubtful, scan, reduced, inference):
@@ -46,6 +49,22 @@ def ghosts(rgb, sure, doubtful, scan, reduced, inference):
     found[place] = ~agrees
     # Its own border is a mixture.
     return doubtful & (cv2.dilate(found.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
+
+
+def islands(seen, sure):
+    """Return (H, W) bool: small parts of what was seen that are cut off from the rest and mostly doubtful.
+
+    Parameters
+    ----------
+    seen, sure : (H, W) bool
+        Where a photo saw anything, and where without a doubt.
+    """
+    import cv2
+
+    count, label = cv2.connectedComponents(seen.astype(np.uint8), connectivity=8)
+    size = np.bincount(label[seen], minlength=count)
+    small = (size < _SMALL * size.sum()) & (np.bincount(label[seen & sure], minlength=count) < _LEAST_SURE * size)
+    return small[label] & seen
 
 
 def _from_within(rgb, sure, doubtful, scan):
