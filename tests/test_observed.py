@@ -96,6 +96,16 @@ def test_what_was_seen_badly_counts_by_its_weight():
     np.testing.assert_allclose(half, (alone + (150, 110, 70)) / 2, atol=2)
 
 
+def test_what_is_doubtful_but_agrees_with_its_surface_has_the_photo_s_color_alone_and_is_not_carried_on():
+    observed, seeds = observed_left(), found([20], [55], [[190, 120, 80]])
+    doubtful = replace(observed, weight=(observed.weight * 0.75).astype(np.float32))
+    result = colorize(flat_scan(), seeds, NATURAL, doubtful)
+    assert np.abs(result.rgb[10, 5].astype(int) - (150, 110, 70)).max() <= 1
+    alone = colorize(flat_scan(), seeds, NATURAL)
+    np.testing.assert_array_equal(result.rgb[:, 40:], alone.rgb[:, 40:])
+    assert 0.7 < result.confidence[10, 5] < 1
+
+
 @pytest.mark.parametrize("how", ["picked", "locked"])
 def test_a_person_s_seed_outranks_a_photo(how):
     scan, observed, red = flat_scan((160, 240)), observed_left((160, 240)), [[220, 30, 30]]

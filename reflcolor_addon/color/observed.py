@@ -21,7 +21,7 @@ from .luminance import seed_values
 # and the size of the window over which each is smoothed.
 _STEP, _HALF_WAY, _HALF_WAY_ITSELF = 1.0, 150.0, 48.0
 _NEAREST, _ALPHA, _AVERAGED = 8, 2.0, 3
-# Weight from which an observed color counts as that of the surface.
+# Weight from which an observed color counts as that of the surface, and is carried on.
 _SURE = 0.9
 # Pixels over which what was seen fades into what is inferred from it.
 _FADES = 2.5
@@ -158,7 +158,7 @@ def joined(spread, observed, seeds, graph, settings, control=None):
 
 
 def _fading(observed, graph):
-    """(H, W) float32: the weight of what was seen, less in the last few pixels before its border."""
+    """(H, W) float32: the share of what was seen in a pixel's color, less in the last few pixels before its border."""
     import cv2
 
     unseen = graph.valid & ~observed.seen
@@ -169,7 +169,9 @@ def _fading(observed, graph):
     distance = cv2.distanceTransform((~unseen).astype(np.uint8), cv2.DIST_L2, 5)[margin:-margin, margin:-margin]
     # From the border itself, half a pixel before the last one seen; and with no edge at either end.
     near = np.clip((distance - np.float32(0.5)) / np.float32(_FADES), 0, 1)
-    return observed.weight * near * near * (3 - 2 * near)
+    # Up to a half the weight itself; from three quarters on the whole color: an inferred one is less true there.
+    share = np.clip(2 * observed.weight - np.float32(0.5), observed.weight, 1)
+    return share * near * near * (3 - 2 * near)
 
 
 def _continued(spread, observed, fading, seeds, graph, settings, control):
@@ -177,7 +179,7 @@ def _continued(spread, observed, fading, seeds, graph, settings, control):
     and (H, W) bool where something arrived from there."""
     import cv2
 
-    sure = fading >= _SURE
+    sure = (fading >= _SURE) & (observed.weight >= _SURE)
     rest = graph.valid & ~sure
     border = sure & (cv2.dilate(rest.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
     pixels = np.flatnonzero(border)
