@@ -30,9 +30,9 @@ def reported(execute):
     """
 
     @wraps(execute)
-    def reporting(self, context):
+    def reporting(self, context, *more):
         try:
-            return execute(self, context)
+            return execute(self, context, *more)
         except Exception as error:
             line = line_of(error)
             if line is None:

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import BoolProperty
 
+from ..scene.reports import reported
 from ..scene.texts import label
 
 _following = []
@@ -36,7 +37,7 @@ class PointerOperator:
         if not self.wait:
             # Where the button was pressed: Blender reports a drag only some pixels later.
             place = event.mouse_prev_press_x - self._region.x, event.mouse_prev_press_y - self._region.y
-            self._drag = self.begin(context, place)
+            self._begin(context, place)
             if self._drag is None:
                 return {"CANCELLED"}
         _following.append(self)
@@ -54,7 +55,7 @@ class PointerOperator:
             return self._end(context, {"CANCELLED"})
         if self._drag is None:
             if event.type == "LEFTMOUSE" and event.value == "PRESS":
-                self._drag = self.begin(context, place)
+                self._begin(context, place)
                 return {"RUNNING_MODAL"} if self._drag is not None else self._end(context, {"CANCELLED"})
             return {"RUNNING_MODAL"}
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
@@ -76,6 +77,11 @@ class PointerOperator:
             _following.remove(self)
             if hasattr(self._drag, "release"):
                 self._drag.release()
+
+    @reported
+    def _begin(self, context, place):
+        """Begin, where nothing keeps the subclass from it."""
+        self._drag = self.begin(context, place)
 
     def _end(self, context, outcome):
         self.let_go()
