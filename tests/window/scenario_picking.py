@@ -152,7 +152,7 @@ def scenario_a_stroke_in_edit_mode_is_refused_in_one_line(window):
     yield from open_picking(window)
     window.call("reflcolor.add_seed", row=10, col=20, color=(0.1, 0.2, 0.9))
     window.call("object.editmode_toggle")
-    window.expect_error("^Error: cones: leave Edit Mode first")
+    window.expect_error("cones: leave Edit Mode first")
     yield from window.drag(at_pixel(window, 200, 60), at_pixel(window, 200, 300))
     yield 0.3
     window.equal(len(window.scan.reflcolor.seeds), 1, "seeds")
