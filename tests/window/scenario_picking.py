@@ -148,19 +148,6 @@ def scenario_a_stroke_lays_a_line_of_seeds(window):
     window.equal(len(window.scan.reflcolor.seeds), 0, "a stroke is one step to undo")
 
 
-def scenario_a_stroke_in_edit_mode_is_refused_in_one_line(window):
-    yield from open_picking(window)
-    window.call("reflcolor.add_seed", row=10, col=20, color=(0.1, 0.2, 0.9))
-    window.call("object.editmode_toggle")
-    window.expect_error("cones: leave Edit Mode first")
-    yield from window.drag(at_pixel(window, 200, 60), at_pixel(window, 200, 300))
-    yield 0.3
-    window.equal(len(window.scan.reflcolor.seeds), 1, "seeds")
-    window.call("object.editmode_toggle")
-    yield from window.drag(at_pixel(window, 200, 60), at_pixel(window, 200, 300))
-    window.check(len(window.scan.reflcolor.seeds) > 2, "out of Edit Mode it lays seeds")
-
-
 def scenario_live_update_shows_a_preview(window):
     yield from open_picking(window)
     window.bpy_window.id_data.reflcolor.live_update = True
