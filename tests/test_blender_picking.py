@@ -1,6 +1,7 @@
 """The acts of the seed tools, as operators: place, pick, keep gray, select, lock, delete, and their undo."""
 
 import importlib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -272,6 +273,33 @@ def test_a_deleted_photo_leaves_the_seeds_their_colors(scan):
     (seed,) = seeds(scan)
     assert color(seed) == (0, 0, 1) and seed.photo is None
     scan.ops.reflcolor.colorize()
+
+
+def test_a_drag_that_edit_mode_keeps_from_ending_is_told_in_one_line_and_puts_the_seed_back(scan):
+    pointer, dragging = (
+        importlib.import_module(f"{EXTENSION}.operators.window.{name}") for name in ("pointer", "drag_seeds")
+    )
+    scan.ops.reflcolor.add_seed(row=1, col=1, color=(1, 0, 0))
+    obj, told = scan.context.active_object, []
+    view = SimpleNamespace(to_image=lambda place: place)
+    image = obj.reflcolor.reflectance_image
+    side = SimpleNamespace(obj=obj, image=image, is_scan=True, view=view, marks=lambda: (None, [True]))
+
+    class Held(pointer.PointerOperator):
+        def report(self, _kind, text):
+            told.append(text)
+
+    held = Held()
+    held._region, held._area = SimpleNamespace(x=0, y=0), SimpleNamespace(tag_redraw=lambda: None)
+    held._drag = dragging.DragSeeds(side, 0, (1, 1))
+    pointer._following.append(held)
+    scan.ops.object.mode_set(mode="EDIT")
+    event = SimpleNamespace(mouse_x=4, mouse_y=3, type="LEFTMOUSE", value="RELEASE")
+    assert held.modal(SimpleNamespace(workspace=None), event) == {"CANCELLED"}
+    scan.ops.object.mode_set(mode="OBJECT")
+    assert told == ["wall: leave Edit Mode first"]
+    assert not pointer._following
+    assert [(seed.row, seed.col) for seed in seeds(scan)] == [(1, 1)]
 
 
 def test_tools_of_the_window_say_so_without_one(scan):

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import BoolProperty
 
+from ...reflcolor_addon.errors import ReflcolorError
 from ..scene.reports import reported
 from ..scene.texts import label
 
@@ -46,30 +47,49 @@ class PointerOperator:
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
+        outcome = {"CANCELLED"}
+        try:
+            outcome = self._next(context, event)
+        finally:
+            # Also where an error ends it: Blender then removes the operator.
+            if outcome != {"RUNNING_MODAL"}:
+                self._end(context)
+        return outcome
+
+    @reported
+    def _next(self, context, event):
+        try:
+            return self._follow(context, event)
+        except ReflcolorError:
+            if self._drag is not None:
+                self._drag.give_up(context)
+            raise
+
+    def _follow(self, context, event):
         place = event.mouse_x - self._region.x, event.mouse_y - self._region.y
         if self not in _following:
             return {"CANCELLED"}
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             if self._drag is not None:
                 self._drag.give_up(context)
-            return self._end(context, {"CANCELLED"})
+            return {"CANCELLED"}
         if self._drag is None:
             if event.type == "LEFTMOUSE" and event.value == "PRESS":
                 self._begin(context, place)
-                return {"RUNNING_MODAL"} if self._drag is not None else self._end(context, {"CANCELLED"})
+                return {"RUNNING_MODAL"} if self._drag is not None else {"CANCELLED"}
             return {"RUNNING_MODAL"}
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
             done = self._drag.follow(context, place) and self._drag.finish(context)
-            return self._end(context, {"FINISHED"} if done else {"CANCELLED"})
+            return {"FINISHED"} if done else {"CANCELLED"}
         if event.type == "MOUSEMOVE":
             if not self._drag.follow(context, place):
-                return self._end(context, {"CANCELLED"})
+                return {"CANCELLED"}
             self._area.tag_redraw()
         return {"RUNNING_MODAL"}
 
     def cancel(self, context):
         """Blender ends the operator, because its window or file goes away."""
-        self._end(context, {"CANCELLED"})
+        self._end(context)
 
     def let_go(self):
         """Drop what is held; the operator ends at the next event."""
@@ -83,11 +103,10 @@ class PointerOperator:
         """Begin, where nothing keeps the subclass from it."""
         self._drag = self.begin(context, place)
 
-    def _end(self, context, outcome):
+    def _end(self, context):
         self.let_go()
         if context.workspace is not None:
             context.workspace.status_text_set(None)
-        return outcome
 
 
 def object_named(name):

@@ -148,6 +148,26 @@ def scenario_a_stroke_lays_a_line_of_seeds(window):
     window.equal(len(window.scan.reflcolor.seeds), 0, "a stroke is one step to undo")
 
 
+def scenario_a_stroke_in_edit_mode_is_refused_in_one_line(window):
+    yield from open_picking(window)
+    yield from window.click(at_point(window, PAIRS[0][1]))
+    window.call("object.editmode_toggle")
+    yield 0.3
+    window.expect_error("cones: leave Edit Mode first")
+    yield from window.drag(at_pixel(window, 200, 60), at_pixel(window, 200, 300))
+    window.equal(len(window.scan.reflcolor.seeds), 0, "no seeds in Edit Mode")
+    window.call("object.editmode_toggle")
+    yield 0.3
+    # Blender's message stands under the pointer and takes what is clicked until the pointer has left it.
+    for place in ((150, 100), (120, 130)):
+        yield from window.click(at_pixel(window, *place))
+        yield 0.3
+    before = len(window.scan.reflcolor.seeds)
+    yield from window.drag(at_pixel(window, 250, 100), at_pixel(window, 250, 400))
+    laid = len(window.scan.reflcolor.seeds) - before
+    window.check(laid > 7, f"out of Edit Mode a stroke lays a line of seeds, here {laid}")
+
+
 def scenario_live_update_shows_a_preview(window):
     yield from open_picking(window)
     window.bpy_window.id_data.reflcolor.live_update = True
