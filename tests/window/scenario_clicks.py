@@ -128,7 +128,7 @@ def scenario_image_pair_with_colors_of_its_own(window):
 
 
 def scenario_image_pair_with_a_photo_of_its_own(window):
-    folder = Path(window.output("pair"))
+    folder = Path(window.output("pair_and_photo"))
     folder.mkdir(exist_ok=True)
     for name in ("cones.scan.json", "cones.range.png", "cones.reflectance.png", "photo.jpg"):
         shutil.copy(window.example(name), folder / name)
