@@ -6,8 +6,8 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 
-# Seconds after which Python lets a waiting thread run, and by how much a thread in the background is nicer.
-_SOON_S, _NICER = 0.0005, 3
+# Seconds after which Python lets a waiting thread run.
+_SOON_S = 0.0005
 
 _limit = None
 _considerate, _usual_s = 0, 0.0
@@ -66,17 +66,6 @@ def letting_others_run():
             _considerate -= 1
             if not _considerate:
                 sys.setswitchinterval(_usual_s)
-
-
-def run_in_background():
-    """On Linux, let others run before this thread and those that it will start, where processors are short.
-
-    Otherwise a window that is drawn without a graphics card stands still twice as long while all processors work.
-    """
-    if sys.platform == "linux":
-        thread = threading.get_native_id()
-        nicer = min(os.getpriority(os.PRIO_PROCESS, thread) + _NICER, 19)
-        os.setpriority(os.PRIO_PROCESS, thread, nicer)
 
 
 def _processors():

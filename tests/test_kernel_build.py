@@ -14,7 +14,7 @@ BUILD = Path(__file__).resolve().parent.parent / "kernel" / "build.py"
 def wheels(tmp_path_factory):
     """The host's wheel, built twice."""
     if subprocess.run([sys.executable, "-m", "ziglang", "version"], capture_output=True, check=False).returncode:
-        pytest.skip("no ziglang")
+        pytest.skip("needs the package ziglang, which make setup installs")
     built = []
     for folder in (tmp_path_factory.mktemp("first"), tmp_path_factory.mktemp("second")):
         subprocess.run([sys.executable, BUILD, "--host", folder], check=True, capture_output=True)

@@ -174,7 +174,7 @@ def test_random_sizes_and_strides_pass_the_sanitizers():
 def test_every_optimization_and_instruction_set_gives_the_same_bits(tmp_path):
     zig = [sys.executable, "-m", "ziglang", "cc"]
     if subprocess.run([*zig, "--version"], capture_output=True, check=False).returncode:
-        pytest.skip("no ziglang")
+        pytest.skip("needs the package ziglang, which make setup installs")
     variants = [("-O2",), ("-O0",), ("-O3", "-DRC_SCALAR"), ("-O2", *NARROW_BANDS)]
     hashes = {run_fuzz(zig, tmp_path, "-fno-sanitize=all", *options, rounds=1000) for options in variants}
     assert len(hashes) == 1

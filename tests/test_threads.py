@@ -1,8 +1,6 @@
 """Work that is shared among threads."""
 
-import os
 import sys
-import threading
 import time
 
 import pytest
@@ -48,23 +46,3 @@ def test_python_is_shared_as_before_once_all_that_let_others_run_have_ended():
     assert sys.getswitchinterval() < usual
     second.__exit__(None, None, None)
     assert sys.getswitchinterval() == pytest.approx(usual)
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="priorities of threads are Linux's")
-def test_a_thread_in_the_background_and_those_it_starts_run_after_others():
-    def priority():
-        return os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
-
-    def work():
-        threads.run_in_background()
-        found.append(priority())
-        inner = threading.Thread(target=lambda: found.append(priority()))
-        inner.start()
-        inner.join()
-
-    found, own = [], priority()
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join()
-    expected = min(own + threads._NICER, 19)
-    assert (found, priority()) == ([expected, expected], own)

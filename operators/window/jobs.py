@@ -8,7 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ...reflcolor_addon.errors import Cancelled
-from ...reflcolor_addon.threads import letting_others_run, run_in_background
+from ...reflcolor_addon.threads import letting_others_run
 from ..scene.editors import redraw_editors, redraw_sidebars
 from ..scene.reports import reported
 from ..scene.steps import complete
@@ -85,7 +85,6 @@ class ThreadJob(Job):
         return work(None, None)
 
     def _run(self):
-        run_in_background()
         try:
             with letting_others_run():
                 self.result = self._work(self._progress, self._cancel.is_set)
@@ -259,17 +258,24 @@ class JobOperator:
         end, goes_on = time.monotonic() + _WRITING_S, False
         try:
             if self._job.overtaken:
+                self._tell_part_written()
                 return {"CANCELLED"}
             for _ in self._writing:
                 if goes_on := time.monotonic() >= end:
                     return {"RUNNING_MODAL"}
             return {"FINISHED"}
         except ReferenceError:
-            # A script has removed the object between two steps.
-            return {"CANCELLED"}
+            # A script has removed an object between two steps; what was written until then is one step of undo.
+            self._tell_part_written()
+            return {"FINISHED"}
         finally:
             if not goes_on:
                 self._end(context)
+
+    def _tell_part_written(self):
+        name = report_text(self.job_name)
+        told = report_text("{name}: not all was written, because a scan was undone or removed meanwhile", name=name)
+        self.report({"WARNING"}, told)
 
     def _set_timer(self, context, seconds):
         self._timer = context.window_manager.event_timer_add(seconds, window=context.window)

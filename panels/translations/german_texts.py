@@ -230,6 +230,9 @@ _REPORTS = {
     "{name}: no pixel has a return, so no seed can be placed": (
         "{name}: kein Pixel hat eine Messung, also kann kein Saatpunkt gesetzt werden"
     ),
+    "{name}: not all was written, because a scan was undone or removed meanwhile": (
+        "{name}: Nicht alles wurde geschrieben, weil ein Scan inzwischen rückgängig gemacht oder entfernt wurde"
+    ),
     "{name}: pick two images together, one of range and one of reflectance, and a third of colors if there is one": (
         "{name}: zwei Bilder zusammen auswählen, eines der Entfernung und eines der Reflektanz, und ein drittes der "
         "Farben, wenn es eines gibt"
