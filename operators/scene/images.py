@@ -105,11 +105,11 @@ def read_pixels(image):
 
     Blender hands out all pixels of an image or none, which takes long for a photo, so the last ones are remembered.
     """
-    width, height = image.size
-    if not image.has_data or not width or image.channels < 3:
-        return None
     key = _memory_key(image)
     if image.is_dirty or key not in _remembered:
+        width, height = image.size
+        if not image.has_data or not width or image.channels < 3:
+            return None
         stored = np.empty(width * height * image.channels, np.float32)
         image.pixels.foreach_get(stored)
         pixels = eight_bits(stored.reshape(height, width, image.channels)[::-1])

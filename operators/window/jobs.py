@@ -77,7 +77,6 @@ class ThreadJob(Job):
         self._work = work
         self._cancel = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"reflcolor {name}", daemon=True)
-        self._thread.start()
 
     @staticmethod
     def complete(work):
@@ -94,10 +93,19 @@ class ThreadJob(Job):
     def _progress(self, fraction, text):
         self.fraction, self.text = fraction, text
 
+    def advance(self):
+        """Start the thread; by now the window has been drawn, which takes long while all processors work."""
+        if not self._started:
+            self._thread.start()
+
+    @property
+    def _started(self):
+        return self._thread.ident is not None
+
     @property
     def alive(self):
-        """Whether the work still goes on."""
-        return self._thread.is_alive()
+        """Whether the work still goes on, or is yet to begin."""
+        return not self._started or self._thread.is_alive()
 
     @property
     def stopping(self):
@@ -107,7 +115,7 @@ class ThreadJob(Job):
     def cancel(self, *, wait=False):
         """Ask the work to end; with ``wait``, return when it has."""
         self._cancel.set()
-        if wait:
+        if wait and self._started:
             self._thread.join()
 
 
