@@ -85,7 +85,20 @@ def test_beside_the_border_the_photo_s_colors_go_on_without_what_seeds_differ_by
     result = colorize(scan, seeds, NATURAL, observed_left())
     steps = np.abs(np.diff(result.rgb.astype(int), axis=1)).max(axis=-1).mean(axis=0)
     border = SHAPE[1] // 2
-    assert steps[border - 4 : border].max() < 4 < steps[border + 8 : -4].max()
+    assert steps[border - 4 : border].max() < 3 < steps[border + 8 : -4].max()
+
+
+def test_beside_the_border_chance_is_evened_out_and_edges_stay():
+    rng = np.random.default_rng(3)
+    scan, upper = flat_scan(), np.arange(SHAPE[0])[:, None, None] < 20
+    scan = replace(scan, reflectance=np.where(upper[..., 0], scan.reflectance, 0.2).astype(np.float32))
+    observed = observed_left()
+    noisy = np.where(upper, (150, 110, 70), (60, 60, 160)) + rng.normal(0, 8, (*SHAPE, 1))
+    observed = replace(observed, rgb=np.where(observed.seen[..., None], noisy, 0).astype(np.uint8))
+    result = colorize(scan, found([5, 35], [5, 5], [[150, 110, 70], [60, 60, 160]]), NATURAL, observed)
+    beside = result.rgb[:, SHAPE[1] // 2 + 1].astype(float)
+    assert beside[2:17].std(axis=0).max() < 3 < 5 < observed.rgb[2:17, 10].std(axis=0).max()
+    assert (beside[18, 0] - beside[21, 0]) > 70
 
 
 def test_what_was_seen_badly_counts_by_its_weight():

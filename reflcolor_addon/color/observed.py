@@ -4,7 +4,7 @@ Where a photo ends, its colors and the inferred ones differ by what no seed told
 paths, from the border of what was seen: beside the border the inferred colors are the photo's, and farther away they
 are the seeds' again. So all pixels at the border have a say, not one in a superpixel, and no edge shows there. Right
 beside the border, where what seeds tell differs from pixel to pixel by chance, the photo's colors themselves are
-carried on.
+carried on, and what still differs by chance is evened out.
 """
 
 import math
@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..geodesic.spreading import spread as geodesic_spread
+from . import colorspaces
 from .luminance import seed_values
 
 # Cost of a path per pixel, in levels of the reflectance; distances at which the difference, and what is carried of the
@@ -23,8 +24,11 @@ _STEP, _HALF_WAY, _HALF_WAY_ITSELF = 1.0, 150.0, 48.0
 _NEAREST, _ALPHA, _AVERAGED = 8, 2.0, 3
 # Weight from which an observed color counts as that of the surface, and is carried on.
 _SURE = 0.9
-# Pixels over which what was seen fades into what is inferred from it.
-_FADES = 2.5
+# Pixels over which what was seen fades into what is inferred from it, hardly any of it being left in the last one.
+_FADES, _FADED = 1.6, 0.95
+# How inferred colors are evened out beside the border: twice, over so many pixels, among those that differ by less than
+# so many levels; and pixels from the border at which that has fallen to a half.
+_EVENED_PX, _EVENED_LEVELS, _HALF_WAY_EVENED = 3.0, 18.0, 8.0
 # Number of places in the photos that a picked color is compared with.
 _PLACES = 500
 _STRIP_PIXELS = 1 << 18
@@ -144,6 +148,8 @@ def joined(spread, observed, seeds, graph, settings, control=None):
     """
     fading = _fading(observed, graph)
     continued, arrived = _continued(spread, observed, fading, seeds, graph, settings, control)
+    if arrived.any():
+        _even_out(continued, observed, seeds, graph, settings)
     values = np.empty_like(spread.values)
     # Where nothing else arrived, even a badly observed color is kept.
     weight = np.where(spread.reached | arrived, fading, observed.seen).astype(np.float32)
@@ -159,16 +165,9 @@ def joined(spread, observed, seeds, graph, settings, control=None):
 
 def _fading(observed, graph):
     """(H, W) float32: the share of what was seen in a pixel's color, less in the last few pixels before its border."""
-    import cv2
-
-    unseen = graph.valid & ~observed.seen
-    margin = math.ceil(_FADES) + 1
-    sides = ((margin, margin), (margin, margin))
-    unseen = np.pad(unseen, (sides[0], (0, 0)))
-    unseen = np.pad(unseen, ((0, 0), sides[1]), mode="wrap" if graph.wrap else "constant")
-    distance = cv2.distanceTransform((~unseen).astype(np.uint8), cv2.DIST_L2, 5)[margin:-margin, margin:-margin]
-    # From the border itself, half a pixel before the last one seen; and with no edge at either end.
-    near = np.clip((distance - np.float32(0.5)) / np.float32(_FADES), 0, 1)
+    distance = _distance(graph.valid & ~observed.seen, math.ceil(_FADED + _FADES) + 1, graph.wrap)
+    # With no edge at either end.
+    near = np.clip((distance - np.float32(_FADED)) / np.float32(_FADES), 0, 1)
     # Up to a half the weight itself; from three quarters on the whole color: an inferred one is less true there.
     share = np.clip(2 * observed.weight - np.float32(0.5), observed.weight, 1)
     return share * near * near * (3 - 2 * near)
@@ -203,6 +202,42 @@ def _continued(spread, observed, fading, seeds, graph, settings, control):
     continued = spread.values + gain[..., None] * differences
     continued += itself[..., None] * (carried - continued)
     return continued, arrived
+
+
+def _even_out(values, observed, seeds, graph, settings):
+    """Even out (H, W, C) values, in place, beside the border of what was seen."""
+    import cv2
+
+    height, width, channels = values.shape
+    radius = round(1.5 * _EVENED_PX)
+    margin = min(2 * radius, width)
+    # What is far from every value takes part in none; and the filter wants three channels.
+    even = np.zeros((height, width + 2 * margin, 3), np.float32)
+    even[..., :channels] = np.pad(
+        np.where(graph.valid[..., None], values, np.float32(-255)),
+        ((0, 0), (margin, margin), (0, 0)),
+        mode="wrap" if graph.wrap else "edge",
+    )
+    levels = _EVENED_LEVELS / colorspaces.levels_per_unit(settings.color_space)
+    for _ in range(2):
+        even = cv2.bilateralFilter(even, 2 * radius + 1, levels, _EVENED_PX)
+    even = even[:, margin : margin + width, :channels]
+    distance = _distance(observed.seen, 4 * math.ceil(_HALF_WAY_EVENED), graph.wrap)
+    share = 1 / (1 + np.square(distance / np.float32(_HALF_WAY_EVENED)))
+    # A color given by a person stays as it is.
+    share.reshape(-1)[_pixels(seeds, seeds.of_a_person, graph)] = 0
+    values += share[..., None] * (even - values)
+
+
+def _distance(mask, margin, wrap):
+    """(H, W) float32: pixels to the nearest one of a mask, over the edge of a full turn as far as a margin."""
+    import cv2
+
+    margin = min(margin, mask.shape[1])
+    sides = ((margin, margin), (margin, margin))
+    mask = np.pad(mask, (sides[0], (0, 0)))
+    mask = np.pad(mask, ((0, 0), sides[1]), mode="wrap" if wrap else "constant")
+    return cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5)[margin:-margin, margin:-margin]
 
 
 def _pixels(seeds, chosen, graph):
