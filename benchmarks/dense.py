@@ -9,7 +9,8 @@ The structural similarity of the luminance; and the step in color across the bor
 step that the truth has there. "rank" is the rank correlation of the confidence with the error as the colors come; below
 each group stands the mean error where the confidence is 0 to 0.1, 0.1 to 0.2 and so on.
 
-"site" is the house of scene 3, four scans from three photos. "hidden" takes real pairs whose true colors are known,
+"site" is the house of scene 3, four scans from three photos. "bound" says how good a perfect method would be in the
+simulated scenes (see `benchmarks.dense_bound`). "hidden" takes real pairs whose true colors are known,
 hides half of what the photo shows from every method, and prints the error there: of ours, of the mean color, and of
 Levin's optimization on all three channels, which is given every pixel that is not hidden. "texture" is time and memory
 of an image of 4,096 pixels a side from three photos of 12 megapixels.
@@ -24,22 +25,17 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from benchmarks import matching_pairs, true_cameras
+from benchmarks import dense_bound, matching_pairs, true_cameras
+from benchmarks.dense_figures import error, lit, projected, step
 from benchmarks.matching import SCENES
 from benchmarks.quality.measure import reliability
 from benchmarks.quality.peers import levin
 from reflcolor_addon import Seeds, Settings, colorize, evaluate
 from reflcolor_addon.color import colorspaces
-from reflcolor_addon.color.evaluation import error_map
 from reflcolor_addon.color.observed import Observed
 from reflcolor_addon.files.images import read_image, write_png
 from reflcolor_addon.matching import Shot, match_photos, match_site, texture
-from reflcolor_addon.matching.opened_photos import opened_photos
 from reflcolor_addon.matching.photo_image import PhotoImage
-from reflcolor_addon.matching.transfer.occlusion import DepthBuffer
-from reflcolor_addon.matching.transfer.surface import GridSurface
-from reflcolor_addon.matching.transfer.views import colors_at, sighted
-from reflcolor_addon.srgb import linear_to_srgb8, srgb8_to_linear
 
 GROUPS = (
     "warped-mild",
@@ -50,6 +46,7 @@ GROUPS = (
     "simulated-25",
     "simulated-45",
     "site",
+    "bound",
     "hidden",
     "texture",
 )
@@ -67,8 +64,6 @@ COLUMNS = (
     "step",
     "rank",
 )
-# What the range may differ by between neighbors of one surface, as a logarithm.
-_ONE_SURFACE = 0.03
 _HIDDEN_SEEDS = 300
 
 
@@ -87,6 +82,8 @@ def main():
             hidden()
         elif group == "texture":
             textured(arguments.scenes)
+        elif group == "bound":
+            dense_bound.bound(arguments.scenes, arguments.only or "")
         else:
             measured(group, arguments)
 
@@ -155,57 +152,6 @@ def figures(pair, matching):
     )
     beside = np.where(observed.seen[..., None], ours, 255 - (255 - ours) // 3)
     return row, sure["by_tenth"], np.concatenate([ours, truth, beside], axis=1 if scan.shape[0] > scan.shape[1] else 0)
-
-
-def projected(pair, matching):
-    """Return the colors that photos project onto the scan by a depth buffer alone, and where they do."""
-    scan, surface = pair.scan, GridSurface(pair.scan)
-    rgb, shown = np.zeros((*scan.shape, 3), np.uint8), np.zeros(scan.shape, bool)
-    for photo, found in zip(opened_photos(pair.photos), matching.photos, strict=True):
-        if not found.verified:
-            continue
-        model, sight = found.model, sighted(found.model, surface)
-        inside = ((sight.xy >= 0) & (sight.xy < [model.width, model.height])).all(axis=-1)
-        if model.kind == "pose":
-            buffer = DepthBuffer.of(model, sight.xy, sight.depth, surface.quads)
-            slope = np.full(np.count_nonzero(inside), 0.01, np.float32) * sight.depth[inside]
-            inside[inside] = buffer.sees(sight.xy[inside], sight.depth[inside], slope)
-        inside &= ~shown
-        rgb[inside] = colors_at(photo, sight.xy[inside], np.ones(np.count_nonzero(inside), np.float32))
-        shown |= inside
-    return rgb, shown
-
-
-def error(rgb, truth, where):
-    """Mean CIEDE2000; not a number where nothing is to be compared."""
-    return float(error_map(rgb, truth, where)[where].mean()) if where.any() else np.nan
-
-
-def lit(rgb, truth, where):
-    """The colors with three gains of linear light, which bring the middle of each channel's ratios to 1."""
-    sound = where & ((rgb >= 12) & (rgb <= 245) & (truth >= 12) & (truth <= 245)).all(axis=-1)
-    if not sound.any():
-        return rgb
-    gains = np.median(srgb8_to_linear(truth[sound]) / srgb8_to_linear(rgb[sound]), axis=0)
-    return linear_to_srgb8(np.clip(srgb8_to_linear(rgb) * gains, 0, 1))
-
-
-def step(rgb, seen, scan, known):
-    """Mean distance in CIELAB between neighbors of one surface of which one was seen and the other was not."""
-    from skimage.color import rgb2lab
-
-    lab, logarithm = rgb2lab(rgb), np.log(np.maximum(scan.range, 1e-6))
-    total = count = 0
-    for axis in (0, 1):
-        length = rgb.shape[axis]
-        parts = [
-            [np.take(image, index, axis) for image in (seen, known)] for index in (range(length - 1), range(1, length))
-        ]
-        border = (parts[0][0] != parts[1][0]) & parts[0][1] & parts[1][1]
-        border &= np.abs(np.diff(logarithm, axis=axis)) < _ONE_SURFACE
-        total += np.linalg.norm(np.diff(lab, axis=axis), axis=-1)[border].sum()
-        count += border.sum()
-    return total / count if count else np.nan
 
 
 def hidden():
