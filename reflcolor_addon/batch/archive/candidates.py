@@ -8,14 +8,16 @@ from ...files.exif import Moment
 
 # Up to so many pairs of a scan and a photo, all are matched: first looks save little there, and may miss what fits.
 ALL_PAIRS = 300
-# How many scans each photo gets a second look at, the likeliest at the first.
-SECOND_LOOKS = 20
+# How many scans each photo gets a second look at, the likeliest at the first: all together take about as long as it
+# takes to match one pair.
+SECOND_LOOKS = 30
 # Where nothing is known of other scans, a photo is matched with the likeliest at the first look, and with those for
 # which at least so much speaks at the second.
-_LIKELIEST, _TELLING = 2, 15.0
+_LIKELIEST, _TELLING = 2, 20.0
 # How much of a scan's usual score is taken out of a look's scores, and to which power they say how likely a pair is.
-# Both were fitted to the looks at an archive of ``python -m benchmarks.archive``.
-_FIRST, _SECOND = (1.0, 8.0), (0.5, 1.5)
+# After the second look the first one counts less, by the last power. All were fitted to the looks at a third of the
+# archive of ``python -m benchmarks.archive --seed 0``.
+_FIRST, _SECOND, _FIRST_AFTER = (1.0, 8.0), (0.6, 4.0), 0.25
 # Photos taken within this many seconds, or meters, of each other probably show the same thing.
 _TOGETHER_S, _TOGETHER_M = 60.0, 10.0
 # Cameras seldom store their time zone, so times may differ by this much; a scan from another day is less likely.
@@ -74,7 +76,7 @@ def merged(first, second):
     found = {}
     for photo, own in first.items():
         again, before = second.get(photo, []), dict(own)
-        both = _of_the_best({name: share * before[name] for name, share in again})
+        both = _of_the_best({name: share * before[name] ** _FIRST_AFTER for name, share in again})
         rest = [(name, 0.0) for name, _ in own if name not in both]
         found[photo] = sorted(both.items(), key=lambda entry: (-entry[1], entry[0])) + rest
     return found

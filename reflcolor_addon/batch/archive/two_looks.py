@@ -7,14 +7,13 @@ from dataclasses import astuple
 
 import numpy as np
 
-from ...matching.registration.fitting import refined
+from ...matching.registration.fitting import COARSE, MIDDLE, refined
 from ...matching.registration.search import Search
 from ...matching.registration.sphere_map import Guess
-from ...matching.registration.verification import RADIUS, TILE
 
-_GUESSES = 6
-# As a direction from the scanner's place is fitted first: pixels, tile, radius, blur and spread.
-_LEVEL = (0.6, TILE, RADIUS, 2.0, 0.5)
+_GUESSES, _FINER = 6, 2
+# As a camera aside is fitted: pixels, tile, radius, blur and spread, on the coarse level and on the middle one.
+_ROUGHLY, _CLOSER = (*COARSE, 10, 1.5, 1.2), (*MIDDLE, 10, 1.0, 0.8)
 
 
 def first_look(views, photo, step=lambda: None):
@@ -45,9 +44,11 @@ def first_look(views, photo, step=lambda: None):
 
 
 def second_look(views, photo, directions, step=lambda: None):
-    """Return how much speaks for the best of a few directions once tiles of the scan were fitted to each.
+    """Return how much speaks for the best of a few directions once a camera was fitted to tiles of the scan from each.
 
-    Unlike what `first_look` returns, this can be compared between scans. It takes about half as long.
+    The camera may move away from the scanner's place, as most photos are taken beside it. All directions are fitted
+    on large pixels, and those that fit best there on smaller ones. Unlike what `first_look` returns, this can be
+    compared between scans. It takes about as long.
 
     Parameters
     ----------
@@ -61,10 +62,15 @@ def second_look(views, photo, directions, step=lambda: None):
     float
         See `Evidence.strength`; 0 where nothing can be told.
     """
-    rng, best = np.random.default_rng(0), 0.0
+    rng, tried = np.random.default_rng(0), []
     for *numbers, center in directions:
         step()
         camera = Guess(*numbers, tuple(center)).camera(photo)
-        _, proof = refined(views, photo, camera, [_LEVEL], free=camera.ROTATION, rng=rng)
+        moved, proof = refined(views, photo, camera, [_ROUGHLY], free=camera.POSE, rng=rng)
+        tried.append((proof.strength, camera if moved is None else moved))
+    best = 0.0
+    for _, camera in sorted(tried, key=lambda pair: -pair[0])[:_FINER]:
+        step()
+        _, proof = refined(views, photo, camera, [_CLOSER], free=camera.POSE, rng=rng)
         best = max(best, proof.strength)
     return float(best)
