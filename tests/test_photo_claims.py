@@ -67,6 +67,14 @@ def test_a_photo_for_whose_other_place_more_speaks_shows_none_unless_it_would_fi
     assert verdict([claim("hall", 30.0, HALL), replace(other, reflectance=HALL_AGAIN)]).shown == ("hall",)
 
 
+def test_what_a_look_saw_counts_where_a_match_found_less():
+    other = claim("cellar", 15.0, CELLAR, verified=False)
+    assert verdict([claim("hall", 31.0, HALL, looked=33.0), replace(other, looked=34.0)]).likelier == ("cellar",)
+    assert verdict([claim("hall", 14.0, HALL, looked=45.0), replace(other, looked=11.0)]).shown == ("hall",)
+    # Where one of both was not looked at, looks do not tell.
+    assert verdict([claim("hall", 31.0, HALL), replace(other, looked=34.0)]).shown == ("hall",)
+
+
 def test_a_person_decides_where_places_contradict_each_other():
     found = verdict([claim("cellar", 20.0, CELLAR, by_hand=True), claim("hall", 60.0, HALL)])
     assert found == Verdict(shown=("cellar",), refused=("hall",))

@@ -18,6 +18,8 @@ class Claim:
         Whether the photo's camera passed the test there; whether a person says that it shows the item.
     strength, evidence : float
         See `Evidence`: unlike the evidence as a share of what is needed, the strength can be compared between scans.
+    looked : float
+        The strength that the second look found on the item; 0 where there was none.
     repeats : bool
         Whether the photo would fit elsewhere as well, so that nothing speaks for this place.
     reflectance, brightness : Cells or None
@@ -33,13 +35,14 @@ class Claim:
     strength: float
     evidence: float = 0.0
     by_hand: bool = False
+    looked: float = 0.0
     repeats: bool = False
     reflectance: Cells | None = None
     brightness: Cells | None = None
     camera: list | None = None
 
     @classmethod
-    def of(cls, item, photo, pairs, by_hand=False):
+    def of(cls, item, photo, pairs, by_hand=False, looked=0.0):
         """Return what the pairs of a photo with the scans of an item (see `matches.match_at`) claim."""
         best = max(pairs, key=lambda pair: (pair["verified"], pair["strength"]))
         return cls(
@@ -50,6 +53,7 @@ class Claim:
             strength=best["strength"],
             evidence=best["evidence"],
             by_hand=by_hand,
+            looked=looked,
             repeats=best["repeats"],
             reflectance=best["reflectance"] and Cells(*best["reflectance"]),
             brightness=best["brightness"] and Cells(*best["brightness"]),

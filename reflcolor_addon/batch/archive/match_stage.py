@@ -222,7 +222,8 @@ class _Rounds:
     def _claim(self, name, path, pairs):
         if (name, path) not in self._claims:
             by_hand = self._said.get((name, path), False)
-            self._claims[name, path] = Claim.of(name, self._looks.photos[path], pairs, by_hand)
+            looked = self._looks.strengths.get(name, {}).get(path, 0.0)
+            self._claims[name, path] = Claim.of(name, self._looks.photos[path], pairs, by_hand, looked)
         return self._claims[name, path]
 
     def decide(self):

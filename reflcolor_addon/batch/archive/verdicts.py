@@ -137,9 +137,15 @@ class Verdicts:
             for other in self._of_photo[claim]
             if not other.verified
             and not other.repeats
-            and other.strength > self._weights[claim]
+            and self._speaks_more(other, claim)
             and not self._compared(claim, other, same_place)
         ]
+
+    def _speaks_more(self, other, claim):
+        """Whether more speaks for a claim than for one that was verified, in the match or in the second look."""
+        # Matching does not always end where the look saw most; but looks tell only where both places were looked at.
+        looked = (other.looked, claim.looked) if other.looked and claim.looked else (0.0, 0.0)
+        return max(other.strength, looked[0]) > max(self._weights[claim], looked[1])
 
 
 def _names(claims):
