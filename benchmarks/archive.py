@@ -4,7 +4,8 @@ An archive is simulated (benchmarks/rooms.py): rooms painted at random, some sca
 every tenth of them of a room that was never scanned. A batch finds out which photo shows which scan, and its table of
 pairs is compared with the truth:
 
-- true pairs lost: a photo that shows a scan, and that matching alone verifies, but that the batch did not find;
+- true pairs lost: a photo that shows a scan, and that matching alone verifies, but that the batch did not find; and how
+  far matching alone puts what such a photo shows from where it is, because its camera can be wrong on the right scan;
 - false pairs: a photo said to show a scan of another room; and contradictions, which the batch refused, because such a
   photo is verified on scans of different places;
 - cost: processor time of the batch, colorizing and writing included, beside that of matching every photo with every
@@ -22,6 +23,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -76,6 +78,11 @@ def main():
     print(f"{arguments.scans} scans x {arguments.photos} photos = {count} pairs, {len(pairs)} of them true")
     print(f"matching alone verifies {len(verified)} true pairs; the batch found {len(found & set(pairs))}")
     print(f"true pairs lost: {len(lost)} of {len(verified)} ({len(lost) / max(len(verified), 1):.1%})", *lost)
+    shown = rooms_of(arguments.scans, arguments.photos, arguments.seed)[1]
+    for scan, photo in lost:
+        room = Room(shown[int(photo[-2:])], arguments.irregular)
+        away = known.of(f"off {scan}+{photo}", partial(off, folder, scan, photo, arguments.scans, room))
+        print(f"  {scan}, {photo}: matching alone is off by {away:.1%} of the photo's width")
     print(f"false pairs: {len(found - set(pairs))}", *sorted(found - set(pairs)))
     print(f"contradictions: {len(refused - set(pairs))} false pairs, {len(refused & set(pairs))} true ones")
     print(f"matching alone verifies {sum(own['verified'] for own in wrong)} of {len(wrong)} wrong pairs")
@@ -109,18 +116,12 @@ def make(folder, scans, photos, seed=0, irregular=False, size=1.0):
 
     ``size`` is that of scans and photos, beside 80 x 130 and 240 x 180 pixels.
     """
-    rng, first = np.random.default_rng((seed, 5)), 1000 * seed
-    scanned = scans - scans // 6
-    rooms = [first + scan % scanned for scan in range(scans)]
-    shown = [int(first + rng.integers(scanned)) for _ in range(photos)]
-    # Nobody scanned these.
-    shown[9::10] = [first + 500 + photo for photo in range(9, photos, 10)]
+    rooms, shown = rooms_of(scans, photos, seed)
     for scan, room in enumerate(rooms):
         path = folder / f"scan_{scan:02d}.ptx"
         if not path.is_file():
             grid = {"rows": round(80 * size), "columns": round(130 * size), "step_deg": 0.6 / size}
-            place = _ASIDE if scan >= scanned else (0, 0)
-            write_ptx(Room(room, irregular).scan(**grid, place=place, name=path.stem), path)
+            write_ptx(Room(room, irregular).scan(**grid, place=_place(scan, scans), name=path.stem), path)
     for photo, room in enumerate(shown):
         path = folder / f"photo_{photo:02d}.png"
         if not path.is_file():
@@ -129,6 +130,21 @@ def make(folder, scans, photos, seed=0, irregular=False, size=1.0):
     lines += ('photos = "photo_*.png"', 'write = "png"', f"settings = {{ slic_segments = {SEGMENTS} }}")
     (folder / "batch.toml").write_text("\n".join(lines) + "\n")
     return {(scan, photo) for scan, own in enumerate(rooms) for photo, room in enumerate(shown) if own == room}
+
+
+def rooms_of(scans, photos, seed):
+    """The numbers of the rooms that scans and photos show."""
+    rng, first = np.random.default_rng((seed, 5)), 1000 * seed
+    scanned = scans - scans // 6
+    rooms = [first + scan % scanned for scan in range(scans)]
+    shown = [int(first + rng.integers(scanned)) for _ in range(photos)]
+    # Nobody scanned these.
+    shown[9::10] = [first + 500 + photo for photo in range(9, photos, 10)]
+    return rooms, shown
+
+
+def _place(scan, scans):
+    return _ASIDE if scan >= scans - scans // 6 else (0, 0)
 
 
 def run_batch(folder, jobs, before, end):
@@ -162,6 +178,18 @@ def matched(folder, scan, photo):
     before = processor_time()
     matching = match_photos(own, [folder / f"{photo}.png"], Settings(slic_segments=SEGMENTS))
     return {"verified": matching.photos[0].verified, "processor": processor_time() - before}
+
+
+def off(folder, scan, photo, scans, room):
+    """How far matching alone puts what a photo of a room shows from where it is, the median as a share of its width."""
+    (own,) = read_scans(folder / f"{scan}.ptx")
+    found = match_photos(own, [folder / f"{photo}.png"], Settings(slic_segments=SEGMENTS)).photos[0].model
+    right = room.camera(int(photo[-2:]), found.width, found.height, _place(int(scan[-2:]), scans))
+    rows, cols = np.nonzero(own.valid)
+    xy, depth = right.project(own.points[rows, cols])
+    seen = (depth > 0) & (xy >= 0).all(axis=1) & (xy < [right.width, right.height]).all(axis=1)
+    away = found.project(found.sites_of(own, rows, cols))[0][seen] - xy[seen]
+    return float(np.nanmedian(np.hypot(*away.T)) / right.width)
 
 
 def processor_time():

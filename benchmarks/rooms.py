@@ -1,8 +1,10 @@
 """Simulated archives: rooms of random size and furniture, painted at random, scanned and photographed exactly."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from reflcolor_addon.matching.models import camera_axes
+from reflcolor_addon.matching.models import Camera, camera_axes
 from reflcolor_addon.scan.scan import Scan
 
 _HEIGHT_M = 1.5
@@ -113,6 +115,17 @@ class Room:
     def photo(self, number, width=240, height=180):
         """A photo of the room, taken up to 0.6 m from the middle, about straight ahead: (height, width, 3) uint8."""
         rng = np.random.default_rng((self._number, 3, number))
+        _, light = self._taken(rng, width, height)
+        light = np.clip(light * rng.uniform(0.7, 1.2) * rng.uniform(0.9, 1.1, 3), 0, 1)
+        return np.uint8(255 * np.clip(light ** (1 / 2.2) + rng.normal(0, 0.01, light.shape), 0, 1))
+
+    def camera(self, number, width=240, height=180, place=(0.0, 0.0)):
+        """The camera of that `photo`, as a scanner at this place sees it."""
+        taken, _ = self._taken(np.random.default_rng((self._number, 3, number)), width, height)
+        return replace(taken, center=taken.center - [*place, _HEIGHT_M])
+
+    def _taken(self, rng, width, height):
+        """A camera in the room, and the light (height, width, 3) that it sees."""
         while True:
             turn, away = rng.uniform(0, 2 * np.pi), rng.uniform(0.1, 0.6)
             place = np.array([away * np.cos(turn), away * np.sin(turn), rng.uniform(1.3, 1.75)])
@@ -123,9 +136,7 @@ class Room:
             distance, light, _ = self.hits(place, rays / np.linalg.norm(rays, axis=-1, keepdims=True))
             # Nobody photographs a wall right before the lens.
             if distance.min() > _NEAREST_M and np.median(distance) > _USUAL_M:
-                break
-        light = np.clip(light * rng.uniform(0.7, 1.2) * rng.uniform(0.9, 1.1, 3), 0, 1)
-        return np.uint8(255 * np.clip(light ** (1 / 2.2) + rng.normal(0, 0.01, light.shape), 0, 1))
+                return Camera(axes, place, focal, 0.0, width, height), light
 
 
 def _box(center, size):
