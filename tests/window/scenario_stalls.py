@@ -41,8 +41,8 @@ def scenario_stalls_without_a_3d_view(window):
         yield from window.until(lambda: is_colorized(window), 200, "the scan is colorized")
         yield 0.5
     window.call("reflcolor.load_photo", area=view, filepath=window.example("photo.jpg"))
-    # The window is drawn with the photo before it is matched.
-    yield 1.0
+    with window.stalls("drawing a loaded photo"):
+        yield 1.0
     with window.stalls("matching a photo"):
         window.invoke("reflcolor.match_photos", area=view)
         yield from window.until(lambda: window.running() is None, 300, "it ends")
