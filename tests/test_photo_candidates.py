@@ -23,7 +23,7 @@ from reflcolor_addon.batch.archive.candidates import (
     telling,
 )
 from reflcolor_addon.batch.archive.folder import BatchFolder
-from reflcolor_addon.batch.archive.looks import look_at
+from reflcolor_addon.batch.archive.looks import FIRST, SECOND, look_at
 from reflcolor_addon.files.exif import Moment, moment_of
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.readers.e57_file import acquired_at
@@ -204,12 +204,12 @@ def test_a_second_look_takes_up_the_directions_of_the_first_one(tmp_path, monkey
     files = [str(tmp_path / name) for name in ("a.ptx", "a.png")]
     request = {"folder": str(folder.root), "scans": files[:1], "photos": files[1:], "reading": ReadOptions().as_dict()}
 
-    def looked(second, **hashes):
-        whole = request | {"hashes": dict(zip(files, ("scan", "photo"), strict=True)) | hashes, "second": second}
+    def looked(which, **hashes):
+        whole = request | {"hashes": dict(zip(files, ("scan", "photo"), strict=True)) | hashes, "look": which}
         return look_at(whole, progress=lambda *_: None, cancelled=lambda: False)["scores"][files[1]]
 
-    anew = looked(True, **{files[1]: ""})
-    assert looked(False) > 0
+    anew = looked(SECOND, **{files[1]: ""})
+    assert looked(FIRST) > 0
     # Searched for anew, they would not be found.
     monkeypatch.setattr(two_looks, "Search", None)
-    assert looked(True) == anew
+    assert looked(SECOND) == anew

@@ -26,6 +26,8 @@ class Claim:
         See `places.reflectance_seen` and `places.brightness_seen`.
     camera : list or None
         See `places.camera_place`.
+    picture : str or None
+        Where a picture of what the scan measured there is kept, see `BatchFolder.sketch`.
     """
 
     item: str
@@ -40,6 +42,7 @@ class Claim:
     reflectance: Cells | None = None
     brightness: Cells | None = None
     camera: list | None = None
+    picture: str | None = None
 
     @classmethod
     def of(cls, item, photo, pairs, by_hand=False, looked=0.0):
@@ -58,6 +61,7 @@ class Claim:
             reflectance=best["reflectance"] and Cells(*best["reflectance"]),
             brightness=best["brightness"] and Cells(*best["brightness"]),
             camera=best["camera"],
+            picture=best["picture"],
         )
 
 

@@ -55,6 +55,10 @@ class BatchFolder:
         """A path in the folder where the batch keeps its records."""
         return self.root.joinpath(STATE, *parts)
 
+    def sketch(self, key):
+        """A small picture that is looked at, by the hash of what it shows."""
+        return self.state("looks", f"{key}.png")
+
     def make(self):
         """Make the folders.
 

@@ -1,12 +1,16 @@
 """The first stage of a batch: which of its photos are worth matching with which of its scans."""
 
-from dataclasses import dataclass, field
+from collections import defaultdict
+from dataclasses import dataclass, field, replace
+from statistics import median_high
 
 from ...files.exif import Moment, moment_of
 from ...files.readers.e57_file import acquired_at
 from ...messages import Message
 from ..paths import scan_files
 from .candidates import all_of_them, are_few, for_second_looks, merged, ranks, telling
+from .looks import FIRST, OF_SCANS, SECOND
+from .partners import partners
 from .workers import Task
 
 
@@ -26,6 +30,8 @@ class Looks:
         Whether there are so few pairs that all of them may be matched.
     first, ranks : dict of str to list of (str, float)
         See `candidates.ranks`; at the first look, and at the last.
+    usual : dict of str to float
+        For each item the usual score at first looks.
     strengths : dict of str to dict of str to float
         For each item what second looks gave for photos.
     unseen : set of str
@@ -39,6 +45,7 @@ class Looks:
     few: bool
     first: dict[str, list] = field(default_factory=dict)
     ranks: dict[str, list] = field(default_factory=dict)
+    usual: dict[str, float] = field(default_factory=dict)
     strengths: dict[str, dict[str, float]] = field(default_factory=dict)
     unseen: set[str] = field(default_factory=set)
 
@@ -79,6 +86,7 @@ def first_looks(context, items, known_pairs):
         for item in items
     }
     scores = _look(context, items, unknown, looks, "Looked at photos for")
+    looks.usual = {name: median_high(own.values()) for name, own in scores.items() if own}
     looks.first = looks.ranks = ranks(scores, looks.moments, looks.scanned)
     return looks
 
@@ -93,11 +101,40 @@ def second_looks(context, items, looks):
     looks : Looks
     """
     likely = for_second_looks(looks.first)
-    looks.strengths = _look(context, items, likely, looks, "Looked again at photos for", second=True)
+    looks.strengths = _look(context, items, likely, looks, "Looked again at photos for", SECOND)
     looks.ranks = merged(looks.first, ranks(looks.strengths, looks.moments, looks.scanned, second=True))
 
 
-def _look(context, items, photos, looks, what, second=False):
+def looks_of_scans(context, items, pictures, looks):
+    """Look for scans of the places that photos were found to show.
+
+    Parameters
+    ----------
+    context, items, looks
+        As `second_looks`.
+    pictures : dict of str to str
+        For the names of `BatchFolder.sketch` of pictures that `partners.picture_of` made: the item that each shows.
+
+    Returns
+    -------
+    dict of str to list of str
+        For each name what `partners.partners` gave.
+    """
+    paths = {str(context.folder.sketch(name)): name for name in pictures}
+    others = {
+        item.name: [path for path, name in paths.items() if pictures[name] != item.name]
+        for item in items
+        if item.name not in looks.unseen
+    }
+    found = _look(context, items, others, replace(looks, hashes=paths), "Looked for scans of one place in", OF_SCANS)
+    scores = defaultdict(dict)
+    for item, own in found.items():
+        for path, score in own.items():
+            scores[paths[path]][item] = score
+    return {name: partners(own, looks.usual) for name, own in scores.items()}
+
+
+def _look(context, items, photos, looks, what, which=FIRST):
     """Scores of photos for items; what is wrong with photos is told."""
     scores, problems = {}, {}
 
@@ -105,7 +142,7 @@ def _look(context, items, photos, looks, what, second=False):
         scores[task.name] = outcome["found"]["scores"]
         problems.update(outcome["found"]["problems"])
 
-    tasks = [_task(context, item, photos[item.name], looks.hashes, second) for item in items if photos.get(item.name)]
+    tasks = [_task(context, item, photos[item.name], looks.hashes, which) for item in items if photos.get(item.name)]
     # What is wrong with a scan is told when it is colorized.
     context.work_again(tasks, looked, lambda task: looks.unseen.add(task.name), what)
     for path, problem in problems.items():
@@ -119,13 +156,13 @@ def _scanned_at(item):
     return next((time for time in times if time is not None), None)
 
 
-def _task(context, item, photos, hashes, second):
+def _task(context, item, photos, hashes, which):
     files = [file for path in item.plan.scans for file in scan_files(path)]
     return Task(
         name=item.name,
         request={
             "do": "look",
-            "second": second,
+            "look": which,
             "folder": str(context.folder.root),
             "scans": [str(path) for path in item.plan.scans],
             "reading": item.plan.reading.as_dict(),

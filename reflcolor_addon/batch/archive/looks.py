@@ -10,10 +10,13 @@ from ...matching.registration.registration import ScanViews
 from ...messages import without_file
 from ..paths import scan_files
 from ..plan_document import reading_of
+from . import partners
 from .fingerprints import digest_of, program_digest
 from .folder import BatchFolder
 from .two_looks import first_look, second_look
 
+FIRST, SECOND, OF_SCANS = "first", "second", "of scans"
+"""Which look it is."""
 KIND = "looks"
 _SKETCH_SIDE = 640
 # Share of the progress that is done when the scans are read.
@@ -27,7 +30,7 @@ def look_at(request, *, progress, cancelled):
     ----------
     request : dict
         ``folder`` of the batch, ``scans``, how they are read (``reading``), ``photos``, and ``hashes`` of them all;
-        ``second``: whether it is the second look.
+        ``look``: `FIRST`, `SECOND`, or `OF_SCANS`, where the photos are pictures of other scans (see `partners`).
     progress, cancelled : callable
 
     Returns
@@ -39,13 +42,11 @@ def look_at(request, *, progress, cancelled):
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
     scans = [hashes[str(file)] for path in request["scans"] for file in scan_files(Path(path))]
     # Files that could not be hashed cannot be told from one another: nothing is kept about them.
-    second = request["second"]
-    first_key, second_key = (
-        digest_of([program_digest(), request["reading"], *scans, *more]) if all(scans) else None
-        for more in ([], ["second"])
+    key, first_key = (
+        digest_of([program_digest(), request["reading"], *scans, which]) if all(scans) else None
+        for which in (request["look"], FIRST)
     )
-    key = second_key if second else first_key
-    known, firsts = _recalled(folder, key), _recalled(folder, first_key) if second else {}
+    known, firsts = _recalled(folder, key), _recalled(folder, first_key) if request["look"] == SECOND else {}
     scores = {path: _score(known[hashes[path]]) for path in request["photos"] if hashes[path] in known}
     problems, missing = {}, [path for path in request["photos"] if path not in scores]
     views = _views(request, progress, cancelled) if missing else []
@@ -63,13 +64,7 @@ def look_at(request, *, progress, cancelled):
             except ReflcolorError as error:
                 problems[path] = without_file(error.message)
                 continue
-            before = firsts.get(hashes[path])
-            looked = [first_look(own, photo, step) for own in views] if before is None else before
-            if second:
-                ways = [directions for _, directions in looked]
-                looked = [
-                    [second_look(own, photo, directions, step), []] for own, directions in zip(views, ways, strict=True)
-                ]
+            looked = _looked(request["look"], views, photo, firsts.get(hashes[path]), step)
             scores[path] = _score(looked)
             if hashes[path]:
                 known[hashes[path]] = looked
@@ -78,6 +73,18 @@ def look_at(request, *, progress, cancelled):
             folder.remember(KIND, key, known)
     worked = (1 + len(missing)) / (1 + len(request["photos"])) if missing else 0.0
     return {"scores": scores, "problems": problems, "worked": worked}
+
+
+def _looked(which, views, photo, first, step):
+    """Score and directions on each scan; ``first`` is what the first look found, where that is known."""
+    if which == OF_SCANS:
+        return [[partners.look(own, photo, step), []] for own in views]
+    if first is None:
+        first = [first_look(own, photo, step) for own in views]
+    if which == FIRST:
+        return first
+    ways = [directions for _, directions in first]
+    return [[second_look(own, photo, directions, step), []] for own, directions in zip(views, ways, strict=True)]
 
 
 def _recalled(folder, key):
@@ -105,7 +112,7 @@ def _sketch(folder, path, key):
     """A photo made small, kept for the other scans."""
     import cv2
 
-    kept = folder.state(KIND, f"{key}.png") if key else None
+    kept = folder.sketch(key) if key else None
     if kept is not None and kept.is_file():
         return read_image(kept)
     rgb = read_image(path)

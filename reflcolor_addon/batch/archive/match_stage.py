@@ -8,7 +8,7 @@ from ..paths import scan_files
 from ..plan_document import as_document
 from .claims import Claim, Verdict
 from .fingerprints import digest_of, program_digest
-from .look_stage import second_looks
+from .look_stage import looks_of_scans, second_looks
 from .tries import Tries
 from .verdicts import Verdicts
 from .workers import Task
@@ -84,8 +84,8 @@ def match_items(context, items, own, looks, known_pairs, matched):
     rounds = _Rounds(context, items, own, looks, known_pairs, matched)
     rounds.match(rounds.given())
     if own >= {item.name for item in items}:
-        tries = Tries(looks.ranks, looks.few)
-        while pairs := tries.next(rounds.verdicts()):
+        tries = Tries(looks.ranks, looks.first, looks.few)
+        while pairs := tries.next(rounds.verdicts(), rounds.partners()):
             rounds.match(pairs)
     else:
         # A part of a batch does not wait for what the others find, but takes what they have found.
@@ -110,7 +110,7 @@ class _Rounds:
         self._found.by_likeness |= {name: list(looks.photos) for name in looks.unseen}
         self._number = 0
         # Made once: what is compared is kept by them.
-        self._claims, self._compared = {}, {}
+        self._claims, self._compared, self._partners = {}, {}, {}
 
     def given(self):
         """The pairs that a person names."""
@@ -218,6 +218,30 @@ class _Rounds:
                 if pairs:
                     claims[path].append(self._claim(name, path, pairs))
         return Verdicts(claims, self._compared)
+
+    def partners(self):
+        """The items that are probably of the place which a photo was found to show, for the path of each photo."""
+        if self._looks.few:
+            return {}
+        pictures = {
+            (path, name): picture
+            for path, verdict in self.verdicts().by_photo().items()
+            for name in verdict.shown
+            if (picture := self._claims[name, path].picture) is not None
+        }
+        # One that was deleted meanwhile is not missed.
+        new = {
+            picture: name
+            for (_, name), picture in pictures.items()
+            if picture not in self._partners and self._context.folder.sketch(picture).is_file()
+        }
+        if new:
+            items = [item for name, item in self._items.items() if name in self._own]
+            self._partners |= looks_of_scans(self._context, items, new, self._looks)
+        found = defaultdict(set)
+        for (path, _), picture in pictures.items():
+            found[path].update(self._partners.get(picture, ()))
+        return found
 
     def _claim(self, name, path, pairs):
         if (name, path) not in self._claims:

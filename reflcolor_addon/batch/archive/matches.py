@@ -1,6 +1,7 @@
 """Matches photos with the scans of one item of a batch, without coloring anything."""
 
 from dataclasses import astuple
+from functools import partial
 
 from ...errors import ReflcolorError
 from ...matching.opened_photos import opened_photos
@@ -10,7 +11,8 @@ from ...messages import without_file
 from ..check import check_plan
 from ..read import read_jobs
 from ..scan_job import require_reflectance
-from .places import brightness_seen, camera_place, reflectance_seen
+from .partners import picture_of
+from .places import brightness_seen, camera_place, pixels_seen, reflectance_seen
 
 # Share of the progress that is done when the scans are read.
 _READING = 0.1
@@ -31,7 +33,8 @@ def match_at(plan, session):
     dict
         ``pairs``: for the path of each photo a list of what was found on each scan (``scan``, its label; ``verified``,
         ``tested``, ``evidence``, ``strength``, ``repeats``, ``note``; ``reflectance``, ``brightness`` and ``camera``,
-        see `places`, where a camera was found); ``problems``: for the path of each photo that cannot be used why.
+        see `places`, where a camera was found; ``picture``, see `partners`, where it was verified); ``problems``: for
+        the path of each photo that cannot be used why.
     """
     session.span = 0.0, _READING
     jobs = read_jobs(plan, check_plan(plan), session, {})
@@ -58,18 +61,22 @@ def match_at(plan, session):
             return session.registrations(jobs[scan], path, register)
 
         found = located(scans, views, nobody, photo, step, registered)
-        pairs[str(path)] = [_told(job, location, photo) for job, location in zip(jobs, found, strict=True)]
+        pairs[str(path)] = [
+            _told(job, location, photo, partial(session.registrations.keep_picture, job, path))
+            for job, location in zip(jobs, found, strict=True)
+        ]
     return {"pairs": pairs, "problems": problems}
 
 
-def _told(job, location, photo):
+def _told(job, location, photo, keep):
     registration, evidence = location.registration, location.registration.evidence
-    reflectance = brightness = camera = None
+    reflectance = brightness = camera = picture = None
     if registration.model is not None:
         reflectance = astuple(reflectance_seen(job.scan, registration.model))
     if location.verified:
         brightness = astuple(brightness_seen(job.scan, registration.model, photo))
         camera = camera_place(job.scan, registration.model)
+        picture = keep(picture_of(job.scan, *pixels_seen(job.scan, registration.model)[:2]))
     return {
         "scan": job.label,
         "verified": location.verified,
@@ -81,4 +88,5 @@ def _told(job, location, photo):
         "reflectance": reflectance,
         "brightness": brightness,
         "camera": camera,
+        "picture": picture,
     }

@@ -80,7 +80,7 @@ def reflectance_seen(scan, model):
     -------
     Cells
     """
-    rows, cols, xy = _in_the_photo(scan, model)
+    rows, cols, xy = pixels_seen(scan, model)
     size = max(model.width, model.height) / _CELLS
     col, row = (xy // size).astype(int).T
     return Cells.of(row, col, int(np.ceil(model.width / size)), scan.reflectance[rows, cols])
@@ -99,7 +99,7 @@ def brightness_seen(scan, model, photo):
     -------
     Cells
     """
-    rows, cols, xy = _in_the_photo(scan, model)
+    rows, cols, xy = pixels_seen(scan, model)
     gray = photo.gray
     size = np.array(gray.shape[::-1])
     x, y = np.minimum(xy * size / [model.width, model.height], size - 1).astype(int).T
@@ -108,8 +108,14 @@ def brightness_seen(scan, model, photo):
     return Cells.of(rows // down, cols // right, across, gray[y, x])
 
 
-def _in_the_photo(scan, model):
-    """Rows and columns of the pixels that a photo shows, and where: (N, 2) pixels of it."""
+def pixels_seen(scan, model):
+    """Return rows and columns (N,) of the pixels with a return that a photo shows, and where: (N, 2) pixels of it.
+
+    Parameters
+    ----------
+    scan, model
+        As `reflectance_seen`.
+    """
     rows, cols = np.nonzero(scan.valid)
     xy, depth = model.project(model.sites_of(scan, rows, cols))
     with np.errstate(invalid="ignore"):
@@ -146,7 +152,7 @@ def camera_place(scan, model):
     it shows is, meters; None where the scan has no pose, or the model no camera."""
     if model.kind != "pose" or np.allclose(scan.pose, np.eye(4)):
         return None
-    rows, cols, _ = _in_the_photo(scan, model)
+    rows, cols, _ = pixels_seen(scan, model)
     if not len(rows):
         return None
     distance = np.median(np.linalg.norm(scan.points[rows, cols] - model.center, axis=1))

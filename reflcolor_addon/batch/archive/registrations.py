@@ -1,5 +1,6 @@
 """Stores which photo shows which scan, and from where, so that no pair is matched twice."""
 
+from ...files.images import write_png
 from ...files.readers.options import AS_IT_IS
 from ...matching.registration.stored import as_document, from_document
 from ..paths import scan_files
@@ -31,11 +32,9 @@ class Registrations:
 
     def __call__(self, job, photo, register):
         """Return the `Registration` of a photo on a scan; ``register()`` finds it where it is not known yet."""
-        own, other = [self._hashes[str(file)] for file in scan_files(job.path)], self._hashes[str(photo)]
-        if not (all(own) and other):
-            # Files that could not be hashed cannot be told from one another.
+        key = self._key(job, photo)
+        if key is None:
             return register()
-        key = digest_of([program_digest(), own, self._reading, job.index, other])
         known = self._folder.recall(KIND, key)
         if known is not None:
             try:
@@ -47,3 +46,23 @@ class Registrations:
         registration = register()
         self._folder.remember(KIND, key, {"registration": as_document(registration)})
         return registration
+
+    def keep_picture(self, job, photo, picture):
+        """Keep a picture (h, w, 3) uint8 of what a scan measured where a photo was found to show it.
+
+        Returns
+        -------
+        str or None
+            What `BatchFolder.sketch` finds it by; None where it cannot be kept.
+        """
+        key = self._key(job, photo, "picture")
+        if key is not None:
+            write_png(self._folder.sketch(key), picture)
+        return key
+
+    def _key(self, job, photo, *more):
+        """What a photo on a scan is kept by; None for files that could not be hashed: which is which is not known."""
+        own, other = [self._hashes[str(file)] for file in scan_files(job.path)], self._hashes[str(photo)]
+        return (
+            digest_of([program_digest(), own, self._reading, job.index, other, *more]) if all(own) and other else None
+        )

@@ -22,25 +22,30 @@ class Tries:
     ----------
     ranks : dict of str to list of (str, float)
         For each photo its scans (the items of the batch, by their names), the likeliest first, and how likely each is.
+    first : dict of str to list of (str, float)
+        The same by the first look alone.
     few : bool
         Whether there are so few pairs that a photo which is not placed may be tried on all scans.
     """
 
-    def __init__(self, ranks, few=False):
+    def __init__(self, ranks, first, few=False):
         count = sum(map(len, ranks.values()))
         self._ranks, self._tried, self._rounds = ranks, {photo: set() for photo in ranks}, 0
+        self._first = {photo: own[0][0] for photo, own in first.items() if own}
         self._most = count if few else MOST_SCANS
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
         self._size = max(1, int(len(ranks) * (self._at_once if self._at_once > 1 else _IN_A_ROUND)))
         self._budget = count if few else max(len(ranks), int(_MOST_PAIRS * count))
 
-    def next(self, verdicts):
+    def next(self, verdicts, partners):
         """Return the pairs of the next round; none at the end.
 
         Parameters
         ----------
         verdicts : Verdicts
             On what was found so far.
+        partners : dict of str to set of str
+            For photos that were found: other scans that are probably of the same place.
 
         Returns
         -------
@@ -55,7 +60,7 @@ class Tries:
             chances = []
             for photo in self._ranks:
                 shown = found[photo].shown if photo in found else ()
-                neighbors = {name for item in shown for name in beside[item]}
+                neighbors = {name for item in shown for name in beside[item]} | set(partners.get(photo, ()))
                 chances += [
                     (-chance, photo, name) for chance, name in self._of(photo, photo in placed, shown, neighbors)
                 ]
@@ -71,8 +76,10 @@ class Tries:
         """How likely it is that a photo shows each of the scans that it may be tried on: (chance, item)."""
         ranked, tried = self._ranks[photo], self._tried[photo]
         open_ones = [(share, name) for name, share in ranked if name not in tried]
-        # A scan of the same place comes before all others.
-        certain = [(1.0, name) for _, name in open_ones if name in neighbors]
+        # A scan of the same place comes before all others, and so does what was likeliest at the first look: the second
+        # one fits a camera to the best directions alone, and may miss the right one.
+        likeliest = None if placed else self._first.get(photo)
+        certain = [(1.0, name) for _, name in open_ones if name in neighbors or name == likeliest]
         room = self._most - len(tried)
         if room <= 0 or certain:
             return certain

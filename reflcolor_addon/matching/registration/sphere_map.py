@@ -79,7 +79,7 @@ class SphereMap:
             rows = np.floor((self.top - elevation) / step_deg).astype(int)
             inside = (cols < shape[1]) & (rows >= 0) & (rows < shape[0])
             rows, cols, distance, tone = rows[inside], cols[inside], distance[inside], tone[inside]
-        reflectance, range_m, valid = _drawn(rows, cols, shape, distance, tone)
+        reflectance, range_m, valid = drawn(rows, cols, shape, distance, tone)
         if around:
             # The photo may lie across the cut.
             margin = min(shape[1], int(_CUT_MARGIN_DEG / step_deg))
@@ -235,8 +235,23 @@ def _cut(azimuth_deg):
     return float(-180 + ends[widest] % 360), bool(ends[widest] - starts[widest] < 3)
 
 
-def _drawn(rows, cols, shape, distance, tone):
-    """Points drawn into a map: the mean of the nearest surface in each pixel, small holes closed."""
+def drawn(rows, cols, shape, distance, tone):
+    """Return points drawn into an image: the mean of the nearest surface in each pixel, small holes closed.
+
+    Parameters
+    ----------
+    rows, cols : (N,) int
+        Pixels of the image.
+    shape : (h, w)
+    distance, tone : (N,) float
+        How far away each point is, in meters, and its reflectance.
+
+    Returns
+    -------
+    reflectance, range_m : (h, w) float32
+        0 where nothing is.
+    seen : (h, w) bool
+    """
     import cv2
 
     place = rows * shape[1] + cols
