@@ -1,6 +1,7 @@
 """Faults injected into whole batches: python -m benchmarks.batch_faults [--moments N] [--folder DIR] [FAULT ...]
 
     kill      kill -9 on the parent and on a child, in turn, at random moments; the batch is run again with --resume
+    often     the same at so many moments of one batch of 60 scans and 12 photos, the archive of benchmarks.batch
     full      an output folder on a disk (a small tmpfs) that fills up under the batch, and is emptied afterwards
     gone      an output folder that vanishes under the batch, and comes back
     together  two batches on the same folder at once
@@ -26,6 +27,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.archive import make
 from benchmarks.faults import mounted
 from benchmarks.geodesic_tables import ROOT
 from benchmarks.rooms import Room
@@ -40,7 +42,7 @@ _DISK_KB = 1200
 
 def main():
     """Inject the faults that are asked for and print what came of each."""
-    faults = {"kill": _kill, "full": _full, "gone": _gone, "together": _together}
+    faults = {"kill": _kill, "often": _often, "full": _full, "gone": _gone, "together": _together}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("faults", metavar="FAULT", nargs="*", help=", ".join(faults))
     parser.add_argument("--moments", type=int, default=20, help="how often it is killed (default %(default)s)")
@@ -81,12 +83,13 @@ def _make(folder):
     (folder / "batch.toml").write_text("\n".join(lines) + "\n")
 
 
-def _undisturbed(folder):
+def _undisturbed(folder, made=_make, name="undisturbed"):
     """What the batch takes by the clock, and the outputs of one that nothing happens to; both kept."""
-    plain = folder / "undisturbed"
+    plain = folder / name
     if not (plain / "seconds").is_file():
         shutil.rmtree(plain, ignore_errors=True)
-        _make(plain)
+        plain.mkdir(parents=True)
+        made(plain)
         start = time.monotonic()
         with _started(plain) as process:
             said = process.communicate()[0]
@@ -202,6 +205,42 @@ def _kill(folder, whole, known, moments):
         f"child, of which {sum(each['again'] for each in told)} had work that was begun again); {min(finished)} to "
         f"{max(finished)} things were finished by then, and none of them was done again",
         [line for each in told for line in each["bad"]],
+    )
+
+
+def _often(folder, _whole, _known, moments):
+    plain, own = folder / "many", folder / "many, killed"
+    whole, known = _undisturbed(folder, lambda folder: make(folder, 60, 12), plain.name)
+    shutil.rmtree(own, ignore_errors=True)
+    shutil.copytree(plain, own, ignore=shutil.ignore_patterns(_COLORED, "seconds"))
+    everything, chance = len(_finished(plain / _COLORED)), random.Random(1)
+    process, first, killed, bad = _started(own), {}, Counter(), []
+    # In order, so that each lies in what the batch has not done yet; some are before anything is finished.
+    for moment, count in enumerate(sorted(chance.choices(range(everything - 5), k=moments))):
+        while process.poll() is None and len(_finished(own / _COLORED)) < count:
+            time.sleep(0.02)
+        time.sleep(chance.uniform(0, 3))
+        what = "child" if moment % 2 else "parent"
+        victims = _children(process.pid) if what == "child" else [process.pid]
+        if process.poll() is not None or not victims:
+            bad.append(f"moment {moment}: no {what} was running ({process.returncode})")
+            continue
+        os.kill(chance.choice(victims), signal.SIGKILL)
+        killed[what] += 1
+        if what == "parent":
+            process.communicate()
+            process = _started(own, "--resume")
+        first = _finished(own / _COLORED) | first
+    said = process.communicate()[0]
+    if process.returncode:
+        bad.append(f"it ended with {process.returncode}: {said[-300:]}")
+    bad += _faults(own, known, first, "in the end")
+    verified = sum(bool(data["photos"]) for name, data in known.items() if name.endswith(".json"))
+    yield (
+        f"one batch of 60 scans and 12 photos, {whole:.0f} s undisturbed; killed at {sum(killed.values())} moments "
+        f"({killed['parent']} of its parent, {killed['child']} of a child), {everything} things finished in the end, "
+        f"{verified} reports name photos",
+        bad,
     )
 
 
