@@ -244,3 +244,13 @@ def test_in_a_small_archive_a_photo_that_is_not_found_is_tried_on_all_scans():
 def test_no_more_than_a_share_of_all_pairs_is_matched():
     ranks = {f"{photo}": [(f"scan {number}", 1.0) for number in range(30)] for photo in range(40)}
     assert sum(map(len, rounds_of(ranks))) <= 0.15 * 1200
+
+
+def test_scans_that_another_photo_shows_to_be_of_one_place_are_tried_beyond_that_share():
+    ranks = {f"{photo}": [(f"scan {number}", 1.0 / (number + 1)) for number in range(30)] for photo in range(40)}
+    names = [f"scan {number}" for number in range(8)]
+    found = {"0": [claim(name, 80.0, HALL, evidence=2.0) for name in names]}
+    found |= {f"{photo}": [claim(names[0], 80.0, HALL, evidence=2.0)] for photo in range(1, 40)}
+    rounds = rounds_of(ranks, found)
+    assert {(photo, name) for photo in found if photo != "0" for name in names} <= set().union(*rounds)
+    assert sum(map(len, rounds)) > 0.15 * 1200

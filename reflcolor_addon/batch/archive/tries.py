@@ -11,7 +11,8 @@ _IN_A_ROUND, _AT_ONCE, _FEW_PHOTOS = 0.5, 3, 24
 _MISSED = 0.4
 # How often another scan shows the place of a photo that was found; and what is not worth trying for that.
 _ANOTHER, _WORTH = 0.2, 0.05
-# Which share of all pairs is matched at most, beyond the first round.
+# Which share of all pairs is matched at most, beyond the first round and scans that another photo shows to be of one
+# place.
 _MOST_PAIRS = 0.09
 
 
@@ -35,7 +36,7 @@ class Tries:
         self._most = count if few else MOST_SCANS
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
         self._size = max(1, int(len(ranks) * (self._at_once if self._at_once > 1 else _IN_A_ROUND)))
-        self._budget = count if few else max(len(ranks), int(_MOST_PAIRS * count))
+        self._left = count if few else max(len(ranks), int(_MOST_PAIRS * count))
 
     def next(self, verdicts, partners):
         """Return the pairs of the next round; none at the end.
@@ -52,7 +53,7 @@ class Tries:
         dict of str to list of str
             For each item its photos.
         """
-        left = self._budget - sum(map(len, self._tried.values()))
+        together = set()
         if self._rounds == 0:
             chosen = [(photo, name) for photo, own in self._ranks.items() for name, _ in own[: self._at_once]]
         else:
@@ -60,14 +61,20 @@ class Tries:
             chances = []
             for photo in self._ranks:
                 shown = found[photo].shown if photo in found else ()
-                neighbors = {name for item in shown for name in beside[item]} | set(partners.get(photo, ()))
+                neighbors = {name for item in shown for name in beside[item]}
+                together |= {(photo, name) for name in neighbors}
+                neighbors |= set(partners.get(photo, ()))
                 chances += [
                     (-chance, photo, name) for chance, name in self._of(photo, photo in placed, shown, neighbors)
                 ]
             chosen = [(photo, name) for _, photo, name in sorted(chances)[: self._size]]
         self._rounds += 1
         pairs = defaultdict(list)
-        for photo, name in chosen[: max(left, 0)]:
+        for photo, name in chosen:
+            if (photo, name) not in together:
+                if self._left <= 0:
+                    continue
+                self._left -= 1
             self._tried[photo].add(name)
             pairs[name].append(photo)
         return dict(pairs)
