@@ -67,16 +67,15 @@ class Tries:
                 chances += [
                     (-chance, photo, name) for chance, name in self._of(photo, photo in placed, shown, neighbors)
                 ]
-            chosen = [(photo, name) for _, photo, name in sorted(chances)[: self._size]]
+            chosen = [(photo, name) for _, photo, name in sorted(chances)]
         self._rounds += 1
-        pairs = defaultdict(list)
+        pairs, size = defaultdict(list), len(chosen) if self._rounds == 1 else self._size
         for photo, name in chosen:
-            if (photo, name) not in together:
-                if self._left <= 0:
-                    continue
-                self._left -= 1
-            self._tried[photo].add(name)
-            pairs[name].append(photo)
+            free = (photo, name) in together
+            if size > 0 and (free or self._left > 0):
+                size, self._left = size - 1, self._left - (not free)
+                self._tried[photo].add(name)
+                pairs[name].append(photo)
         return dict(pairs)
 
     def _of(self, photo, placed, shown, neighbors):
