@@ -1,7 +1,7 @@
 """Faults injected into whole batches: python -m benchmarks.batch_faults [--moments N] [--folder DIR] [FAULT ...]
 
     kill      kill -9 on the parent and on a child, in turn, at random moments; the batch is run again with --resume
-    often     the same at so many moments of one batch of 60 scans and 12 photos, the archive of benchmarks.batch
+    often     the same at so many moments of one batch of 60 scans and 12 photos, made as by benchmarks.archive
     full      an output folder on a disk (a small tmpfs) that fills up under the batch, and is emptied afterwards
     gone      an output folder that vanishes under the batch, and comes back
     together  two batches on the same folder at once
@@ -210,7 +210,7 @@ def _kill(folder, whole, known, moments):
 
 def _often(folder, _whole, _known, moments):
     plain, own = folder / "many", folder / "many, killed"
-    whole, known = _undisturbed(folder, lambda folder: make(folder, 60, 12, size=0.5), plain.name)
+    whole, known = _undisturbed(folder, lambda folder: make(folder, 60, 12), plain.name)
     shutil.rmtree(own, ignore_errors=True)
     shutil.copytree(plain, own, ignore=shutil.ignore_patterns(_COLORED, "seconds"))
     everything, chance = len(_finished(plain / _COLORED)), random.Random(1)
