@@ -14,12 +14,13 @@ from ...matching.registration.search import Search
 from ...matching.registration.sphere_map import drawn
 from ...matching.scan_image import reflectance_image
 
-# A picture of a scan is a third longer than high, and so many times as long as its focal length: it shows 78 degrees.
-_RATIO, _LENGTHS = 1.5, 1.62
-_FOCAL = 1 / _LENGTHS
-# What is nearer to the one scanner than to the other looks larger: focal lengths that it is looked for with.
+# A picture of a scan is so many times as wide as it is high; its focal length, in widths, makes it show 78 degrees.
+_RATIO, _FOCAL = 1.5, 0.617
+# What is nearer to the one scanner than to the other looks larger there: focal lengths that it is looked for with.
 _FOCALS = (0.8 * _FOCAL, _FOCAL, 1.25 * _FOCAL)
-_MOST_PIXELS, _FILLED = 640, 0.8
+_MOST_PIXELS = 640
+# How much narrower it is than one with a pixel for each return, so that nearly every pixel has one.
+_FILLED = 0.8
 # A scan is a partner if the picture fits it so many times as well as it usually fits a scan, and nearly as well as the
 # best. Of 20 pictures of rooms that ``python -m benchmarks.archive`` scans twice, 18 named the other scan, with 1.3 to
 # 2.5 times the usual; all 60 pictures of two such archives named 35 other scans, with 1.3 to 2.1 times.
@@ -49,7 +50,6 @@ def picture_of(scan, rows, cols):
     with np.errstate(invalid="ignore"):
         inside = (depth > 0) & (xy >= 0).all(axis=1) & (xy < [camera.width, camera.height]).all(axis=1)
     rows, cols, xy = rows[inside], cols[inside], xy[inside]
-    # About one return for each pixel.
     width = int(np.clip(_FILLED * np.sqrt(_RATIO * len(rows)), 2, _MOST_PIXELS))
     shape = max(2, round(width / _RATIO)), width
     x, y = np.minimum(xy * width / _MOST_PIXELS, [shape[1] - 1, shape[0] - 1]).astype(int).T
