@@ -220,11 +220,13 @@ def _often(folder, _whole, _known, moments):
         while process.poll() is None and len(_finished(own / _COLORED)) < count:
             time.sleep(0.02)
         time.sleep(chance.uniform(0, 3))
-        what = "child" if moment % 2 else "parent"
-        victims = _children(process.pid) if what == "child" else [process.pid]
-        if process.poll() is not None or not victims:
-            bad.append(f"moment {moment}: no {what} was running ({process.returncode})")
-            continue
+        what, victims = ("child", []) if moment % 2 else ("parent", [process.pid])
+        while process.poll() is None and not victims:
+            time.sleep(0.02)
+            victims = _children(process.pid)
+        if process.poll() is not None:
+            bad.append(f"moment {moment}: the batch had ended with {process.returncode}")
+            break
         os.kill(chance.choice(victims), signal.SIGKILL)
         killed[what] += 1
         if what == "parent":

@@ -20,7 +20,7 @@ from reflcolor_addon.batch.archive.context import Context
 from reflcolor_addon.batch.archive.done import Done
 from reflcolor_addon.batch.archive.fingerprints import Fingerprints
 from reflcolor_addon.batch.archive.folder import BatchFolder
-from reflcolor_addon.batch.archive.looks import look_at
+from reflcolor_addon.batch.archive.looks import FIRST, look_at
 from reflcolor_addon.batch.archive.registrations import Registrations
 from reflcolor_addon.batch.archive.workers import Task, Workers
 from reflcolor_addon.cli.interruption import Interruption
@@ -299,7 +299,7 @@ def test_looks_and_matches_that_were_kept_count_as_no_work(archive):
     write_png(archive / "a.png", np.random.default_rng(0).integers(0, 256, (40, 60, 3)).astype(np.uint8))
     (folder := BatchFolder(archive / "colored")).make()
     files = [archive / "hall_0.ptx", archive / "a.png"]
-    request = {"folder": str(folder.root), "scans": [str(files[0])], "photos": [str(files[1])], "second": False}
+    request = {"folder": str(folder.root), "scans": [str(files[0])], "photos": [str(files[1])], "look": FIRST}
     request |= {"hashes": {str(path): path.name for path in files}, "reading": ReadOptions().as_dict()}
     worked = [
         look_at(request, progress=lambda *_: None, cancelled=lambda: False)["worked"],
