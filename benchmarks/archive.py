@@ -126,7 +126,7 @@ def make(folder, scans, photos, seed=0, irregular=False, size=1.0):
         path = folder / f"scan_{scan:02d}.ptx"
         if not path.is_file():
             grid = {"rows": round(80 * size), "columns": round(130 * size), "step_deg": 0.6 / size}
-            write_ptx(Room(room, irregular).scan(**grid, place=_place(scan, scans), name=path.stem), path)
+            write_ptx(Room(room, irregular).scan(**grid, place=place_of(scan, scans), name=path.stem), path)
     for photo, room in enumerate(shown):
         path = folder / f"photo_{photo:02d}.png"
         if not path.is_file():
@@ -148,7 +148,8 @@ def rooms_of(scans, photos, seed):
     return rooms, shown
 
 
-def _place(scan, scans):
+def place_of(scan, scans):
+    """Where the scanner stands in the room of a scan, meters."""
     return _ASIDE if scan >= scans - scans // 6 else (0, 0)
 
 
@@ -184,7 +185,7 @@ def matched(folder, scan, photo, room=None, scans=0):
     matching = match_photos(own, [folder / f"{photo}.png"], Settings(slic_segments=SEGMENTS))
     found = {"verified": matching.photos[0].verified, "processor": processor_time() - before}
     if room is not None and found["verified"]:
-        found["off"] = _off(own, matching.photos[0].model, room, int(photo[-2:]), _place(int(scan[-2:]), scans))
+        found["off"] = _off(own, matching.photos[0].model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
     return found
 
 

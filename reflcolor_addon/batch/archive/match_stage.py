@@ -85,7 +85,7 @@ def match_items(context, items, own, looks, known_pairs, matched):
     rounds.match(rounds.given())
     if own >= {item.name for item in items}:
         tries = Tries(looks.ranks, looks.first, looks.few)
-        while pairs := tries.next(rounds.verdicts(), rounds.partners()):
+        while pairs := tries.next(verdicts := rounds.verdicts(), rounds.partners(verdicts)):
             rounds.match(pairs)
     else:
         # A part of a batch does not wait for what the others find, but takes what they have found.
@@ -219,13 +219,13 @@ class _Rounds:
                     claims[path].append(self._claim(name, path, pairs))
         return Verdicts(claims, self._compared)
 
-    def partners(self):
+    def partners(self, verdicts):
         """The items that are probably of the place which a photo was found to show, for the path of each photo."""
         if self._looks.few:
             return {}
         pictures = {
             (path, name): picture
-            for path, verdict in self.verdicts().by_photo().items()
+            for path, verdict in verdicts.by_photo().items()
             for name in verdict.shown
             if (picture := self._claims[name, path].picture) is not None
         }
@@ -236,8 +236,7 @@ class _Rounds:
             if picture not in self._partners and self._context.folder.sketch(picture).is_file()
         }
         if new:
-            items = [item for name, item in self._items.items() if name in self._own]
-            self._partners |= looks_of_scans(self._context, items, new, self._looks)
+            self._partners |= looks_of_scans(self._context, self._items.values(), new, self._looks)
         found = defaultdict(set)
         for (path, _), picture in pictures.items():
             found[path].update(self._partners.get(picture, ()))

@@ -62,13 +62,13 @@ def match_at(plan, session):
 
         found = located(scans, views, nobody, photo, step, registered)
         pairs[str(path)] = [
-            _told(job, location, photo, partial(session.registrations.keep_picture, job, path))
-            for job, location in zip(jobs, found, strict=True)
+            _told(job, own, location, photo, partial(session.registrations.keep_picture, job, path))
+            for job, own, location in zip(jobs, views, found, strict=True)
         ]
     return {"pairs": pairs, "problems": problems}
 
 
-def _told(job, location, photo, keep):
+def _told(job, views, location, photo, keep):
     registration, evidence = location.registration, location.registration.evidence
     reflectance = brightness = camera = picture = None
     if registration.model is not None:
@@ -76,7 +76,7 @@ def _told(job, location, photo, keep):
     if location.verified:
         brightness = astuple(brightness_seen(job.scan, registration.model, photo))
         camera = camera_place(job.scan, registration.model)
-        picture = keep(picture_of(job.scan, *pixels_seen(job.scan, registration.model)[:2]))
+        picture = keep(picture_of(views, *pixels_seen(job.scan, registration.model)[:2]))
     return {
         "scan": job.label,
         "verified": location.verified,

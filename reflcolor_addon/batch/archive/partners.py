@@ -12,7 +12,6 @@ from ...matching.edges import filled
 from ...matching.models import Camera, camera_axes
 from ...matching.registration.search import Search
 from ...matching.registration.sphere_map import drawn
-from ...matching.scan_image import reflectance_image
 
 # A picture of a scan is so many times as wide as it is high; its focal length, in widths, makes it show 78 degrees.
 _RATIO, _FOCAL = 1.5, 0.617
@@ -27,12 +26,12 @@ _FILLED = 0.8
 _STANDS_OUT, _NEARLY = 1.3, 0.8
 
 
-def picture_of(scan, rows, cols):
+def picture_of(views, rows, cols):
     """Return what a scan measured around some of its pixels, as a camera in the scanner's place would show it.
 
     Parameters
     ----------
-    scan : Scan
+    views : ScanViews
     rows, cols : (N,) int
         Pixels with a return, at least one.
 
@@ -41,6 +40,7 @@ def picture_of(scan, rows, cols):
     (h, w, 3) uint8
         Gray: the reflectance, every value as often as any other; filled smoothly where nothing was measured.
     """
+    scan = views.closed
     middle = (scan.points[rows, cols] / np.maximum(scan.range[rows, cols], 1e-12)[:, None]).mean(axis=0)
     yaw, pitch = np.arctan2(middle[0], middle[1]), np.arctan2(middle[2], np.hypot(middle[0], middle[1]))
     axes = camera_axes(np.degrees(yaw), np.degrees(pitch), 0.0)
@@ -53,8 +53,7 @@ def picture_of(scan, rows, cols):
     width = int(np.clip(_FILLED * np.sqrt(_RATIO * len(rows)), 2, _MOST_PIXELS))
     shape = max(2, round(width / _RATIO)), width
     x, y = np.minimum(xy * width / _MOST_PIXELS, [shape[1] - 1, shape[0] - 1]).astype(int).T
-    tone = reflectance_image(scan, "ranks")[rows, cols]
-    image, _, seen = drawn(y, x, shape, scan.range[rows, cols], tone)
+    image, _, seen = drawn(y, x, shape, scan.range[rows, cols], views.ranks[rows, cols])
     return np.repeat(np.uint8(np.clip(filled(image, seen), 0, 255))[..., None], 3, axis=2)
 
 
@@ -88,14 +87,15 @@ def partners(scores, usual):
     scores : dict of str to float
         For each item what `look` gave.
     usual : dict of str to float
-        For each item the usual score of a photo there: a scan with much detail fits everything better.
+        For each item the usual score of a photo there: a scan with much detail fits everything better. Of items
+        without one, as those that no photo was looked at for, nothing is known.
 
     Returns
     -------
     list of str
         Their names; empty where nothing stands out.
     """
-    shares = {name: score / max(usual.get(name, 0.0), 1e-9) for name, score in scores.items()}
+    shares = {name: score / usual[name] for name, score in scores.items() if usual.get(name, 0.0) > 0}
     if len(shares) < 2:
         return []
     least = max(_STANDS_OUT * median_high(shares.values()), _NEARLY * max(shares.values()))

@@ -63,6 +63,6 @@ class Registrations:
     def _key(self, job, photo, *more):
         """What a photo on a scan is kept by; None for files that could not be hashed: which is which is not known."""
         own, other = [self._hashes[str(file)] for file in scan_files(job.path)], self._hashes[str(photo)]
-        return (
-            digest_of([program_digest(), own, self._reading, job.index, other, *more]) if all(own) and other else None
-        )
+        if not (all(own) and other):
+            return None
+        return digest_of([program_digest(), own, self._reading, job.index, other, *more])
