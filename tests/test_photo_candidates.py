@@ -161,6 +161,12 @@ def test_photos_taken_together_go_to_the_same_scan():
         assert candidates(_UNSURE, moments) == candidates(_UNSURE)
 
 
+def test_photos_that_overlap_go_to_the_same_scan():
+    found = {photo: dict(own) for photo, own in ranks(_UNSURE, overlaps={"b": {"a", "not looked at"}}).items()}
+    assert found["b"]["hall"] >= 0.4 > dict(ranks(_UNSURE)["b"])["hall"]
+    assert found["a"] == dict(ranks(_UNSURE)["a"])
+
+
 def test_a_scan_of_the_photos_day_comes_first():
     scores = {"hall": {"a": 3.0, "b": 1.0, "c": 1.0}, "cellar": {"a": 3.5, "b": 1.0, "c": 1.0}}
     taken, day = {"a": Moment(seconds=0.0)}, 86400.0

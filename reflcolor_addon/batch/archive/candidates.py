@@ -1,4 +1,4 @@
-"""Which photos are matched with which scans: by first looks, and by when and where they were taken."""
+"""Which photos are matched with which scans: by looks, by when and where they were taken, and by which overlap."""
 
 import math
 from bisect import bisect_left, bisect_right
@@ -25,7 +25,7 @@ _SAME_DAY_S, _ANOTHER_DAY = 14 * 3600.0, 0.5
 _METERS_PER_DEGREE = 111_195.0
 
 
-def ranks(scores, moments=None, scanned=None, second=False):
+def ranks(scores, moments=None, scanned=None, overlaps=None, second=False):
     """Put the scans in order that each photo may show.
 
     Parameters
@@ -36,6 +36,8 @@ def ranks(scores, moments=None, scanned=None, second=False):
         When and where photos were taken, by their paths.
     scanned : dict of str to float, optional
         When items were scanned, in seconds since 1970, by their names.
+    overlaps : dict of str to set of str, optional
+        For each photo others that show partly the same.
     second : bool
         Whether these are scores of second looks.
 
@@ -58,7 +60,8 @@ def ranks(scores, moments=None, scanned=None, second=False):
     moments = {photo: its for photo, its in (moments or {}).items() if photo in shares and its != Moment()}
     others, ranked = _Neighbors(moments), {}
     for photo in shares:
-        own, moment = _supported(photo, shares, others), moments.get(photo)
+        beside = (overlaps or {}).get(photo, set()).union(others.of(photo)) & shares.keys()
+        own, moment = _supported(photo, shares, sorted(beside)), moments.get(photo)
         if moment is not None and moment.seconds is not None:
             own = {name: share * _of_its_day(moment.seconds, scanned.get(name)) for name, share in own.items()}
         ranked[photo] = sorted(_of_the_best(own).items(), key=lambda entry: (-entry[1], entry[0]))
@@ -131,9 +134,9 @@ def _of_the_best(shares):
     return {name: share / best if best > 0 else 0.0 for name, share in shares.items()}
 
 
-def _supported(photo, shares, neighbors):
-    """A photo's shares, and the mean ones of photos that were taken together with it."""
-    own, others = shares[photo], [shares[other] for other in neighbors.of(photo)]
+def _supported(photo, shares, beside):
+    """A photo's shares, and the mean ones of photos of the same place."""
+    own, others = shares[photo], [shares[other] for other in beside]
     if not others:
         return own
     return {name: share + sum(other.get(name, 0.0) for other in others) / len(others) for name, share in own.items()}

@@ -6,7 +6,8 @@ from ...files.memory import readable
 from ...messages import Message
 from ..plan import RENDER
 from .candidates import SECOND_LOOKS, are_few
-from .costs import SECONDS_PER_LOOK, SECONDS_PER_LOOK_OF_SCANS, SECONDS_PER_SECOND_LOOK
+from .costs import SECONDS_PER_COMPARISON, SECONDS_PER_LOOK, SECONDS_PER_LOOK_OF_SCANS, SECONDS_PER_SECOND_LOOK
+from .overlaps import MOST_COMPARED
 from .progress_lines import duration
 from .tries import MOST_SCANS
 
@@ -44,9 +45,10 @@ def estimate(manifest, options, costs):
     pairs, looks = len(manifest.photos), SECONDS_PER_LOOK * len(manifest.photos)
     if not are_few(offered, pairs):
         # Each photo is matched with few scans, and looked at again for some, whatever the number of scans. Then what
-        # was measured where it was found is looked for in all of them.
+        # was measured where it was found is looked for in all of them. Photos are compared with each other.
         looks += SECONDS_PER_SECOND_LOOK * pairs * min(SECOND_LOOKS, offered) / offered
         looks += SECONDS_PER_LOOK_OF_SCANS * pairs
+        looks += SECONDS_PER_COMPARISON * pairs * min(pairs / 2, MOST_COMPARED * offered) / offered
         pairs *= min(MOST_SCANS, offered) / offered
     seconds = sum(
         costs.seconds(item.plan.scans, pairs if item.offered else 0 if item.plan.seeds else len(item.plan.photos))

@@ -28,12 +28,14 @@ class Looks:
         When each item was scanned.
     few : bool
         Whether there are so few pairs that all of them may be matched.
+    overlaps : dict of str to set of str
+        For the path of each photo those of others that show partly the same, as far as they were compared.
     first, ranks : dict of str to list of (str, float)
         See `candidates.ranks`; at the first look, and at the last.
+    scores, strengths : dict of str to dict of str to float
+        For each item what first looks gave for photos, and what second looks gave.
     usual : dict of str to float
         For each item the usual score at first looks.
-    strengths : dict of str to dict of str to float
-        For each item what second looks gave for photos.
     unseen : set of str
         Names of items at which no look could be taken.
     """
@@ -43,15 +45,24 @@ class Looks:
     moments: dict[str, Moment]
     scanned: dict[str, float | None]
     few: bool
+    overlaps: dict[str, set[str]] = field(default_factory=dict)
     first: dict[str, list] = field(default_factory=dict)
     ranks: dict[str, list] = field(default_factory=dict)
-    usual: dict[str, float] = field(default_factory=dict)
+    scores: dict[str, dict[str, float]] = field(default_factory=dict)
     strengths: dict[str, dict[str, float]] = field(default_factory=dict)
+    usual: dict[str, float] = field(default_factory=dict)
     unseen: set[str] = field(default_factory=set)
 
     def by_item(self):
         """Return the pairs that are worth matching, whatever is found for others: for each item its photos."""
         return all_of_them(self.ranks) if self.few else telling(self.first, self.strengths)
+
+    def rank(self):
+        """Put the items in order by what the looks gave so far."""
+        known = self.moments, self.scanned, self.overlaps
+        self.first = self.ranks = ranks(self.scores, *known)
+        if self.strengths:
+            self.ranks = merged(self.first, ranks(self.strengths, *known, second=True))
 
 
 def first_looks(context, items, known_pairs):
@@ -85,9 +96,9 @@ def first_looks(context, items, known_pairs):
         item.name: [path for path, name in photos.items() if known_pairs.get((item.name, name)) is None]
         for item in items
     }
-    scores = _look(context, items, unknown, looks, "Looked at photos for")
-    looks.usual = {name: median_high(own.values()) for name, own in scores.items() if own}
-    looks.first = looks.ranks = ranks(scores, looks.moments, looks.scanned)
+    looks.scores = _look(context, items, unknown, looks, "Looked at photos for")
+    looks.usual = {name: median_high(own.values()) for name, own in looks.scores.items() if own}
+    looks.rank()
     return looks
 
 
@@ -102,7 +113,7 @@ def second_looks(context, items, looks):
     """
     likely = for_second_looks(looks.first)
     looks.strengths = _look(context, items, likely, looks, "Looked again at photos for", SECOND)
-    looks.ranks = merged(looks.first, ranks(looks.strengths, looks.moments, looks.scanned, second=True))
+    looks.rank()
 
 
 def looks_of_scans(context, items, pictures, looks):

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from ...errors import Cancelled, ReflcolorError
-from ...files.images import read_image, write_png
 from ...files.readers import read_scans
 from ...matching.photo_image import PhotoImage
 from ...matching.registration.registration import ScanViews
@@ -13,12 +12,12 @@ from ..plan_document import reading_of
 from . import partners
 from .fingerprints import digest_of, program_digest
 from .folder import BatchFolder
+from .sketches import sketch_of
 from .two_looks import first_look, second_look
 
 FIRST, SECOND, OF_SCANS = "first", "second", "of scans"
 """Which look it is."""
 KIND = "looks"
-_SKETCH_SIDE = 640
 # Share of the progress that is done when the scans are read.
 _READING = 0.2
 
@@ -60,7 +59,7 @@ def look_at(request, *, progress, cancelled):
             step()
             progress(_READING + (1 - _READING) * number / len(missing), Path(path).name)
             try:
-                photo = PhotoImage(Path(path).name, _sketch(folder, path, hashes[path]))
+                photo = PhotoImage(Path(path).name, sketch_of(folder, path, hashes[path]))
             except ReflcolorError as error:
                 problems[path] = without_file(error.message)
                 continue
@@ -106,20 +105,3 @@ def _views(request, progress, cancelled):
         scans = read_scans(path, options=options, progress=reading, cancelled=cancelled)
         views += [ScanViews(scan) for scan in scans]
     return [own for own in views if own.scan.valid.any()]
-
-
-def _sketch(folder, path, key):
-    """A photo made small, kept for the other scans."""
-    import cv2
-
-    kept = folder.sketch(key) if key else None
-    if kept is not None and kept.is_file():
-        return read_image(kept)
-    rgb = read_image(path)
-    scale = max(rgb.shape) / _SKETCH_SIDE
-    if scale > 1:
-        size = max(1, round(rgb.shape[1] / scale)), max(1, round(rgb.shape[0] / scale))
-        rgb = cv2.resize(rgb, size, interpolation=cv2.INTER_AREA)
-    if kept is not None:
-        write_png(kept, rgb)
-    return rgb

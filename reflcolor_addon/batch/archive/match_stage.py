@@ -9,6 +9,7 @@ from ..plan_document import as_document
 from .claims import Claim, Verdict
 from .fingerprints import digest_of, program_digest
 from .look_stage import looks_of_scans, second_looks
+from .overlap_stage import overlapping
 from .tries import Tries
 from .verdicts import Verdicts
 from .workers import Task
@@ -78,13 +79,17 @@ def match_items(context, items, own, looks, known_pairs, matched):
     matched : Matched
         What is found is added to it, little by little.
     """
+    whole = own >= {item.name for item in items}
     if not looks.few:
+        if whole:
+            looks.overlaps = overlapping(context, looks, len(items))
+            looks.rank()
         # A part of a batch does not look again at what other parts have.
         second_looks(context, [item for item in items if item.name in own], looks)
     rounds = _Rounds(context, items, own, looks, known_pairs, matched)
     rounds.match(rounds.given())
-    if own >= {item.name for item in items}:
-        tries = Tries(looks.ranks, looks.first, looks.few)
+    if whole:
+        tries = Tries(looks.ranks, looks.first, looks.few, looks.overlaps)
         while pairs := tries.next(verdicts := rounds.verdicts(), rounds.partners(verdicts)):
             rounds.match(pairs)
     else:

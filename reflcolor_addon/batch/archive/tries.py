@@ -27,11 +27,14 @@ class Tries:
         The same by the first look alone.
     few : bool
         Whether there are so few pairs that a photo which is not placed may be tried on all scans.
+    overlaps : dict of str to set of str, optional
+        For each photo others that show partly the same.
     """
 
-    def __init__(self, ranks, first, few=False):
+    def __init__(self, ranks, first, few=False, overlaps=None):
         count = sum(map(len, ranks.values()))
         self._ranks, self._tried, self._rounds = ranks, {photo: set() for photo in ranks}, 0
+        self._overlaps = overlaps or {}
         self._first = {photo: own[0][0] for photo, own in first.items() if own}
         self._most = count if few else MOST_SCANS
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
@@ -61,7 +64,10 @@ class Tries:
             chances = []
             for photo in self._ranks:
                 shown = found[photo].shown if photo in found else ()
-                neighbors = {name for item in shown for name in beside[item]}
+                # What another photo of the same place shows, this one probably shows, too.
+                others = [found[other].shown for other in self._overlaps.get(photo, ()) if other in found]
+                seen = {name for own in (shown, *others) for name in own}
+                neighbors = seen.union(*(beside[item] for item in seen))
                 together |= {(photo, name) for name in neighbors}
                 neighbors |= set(partners.get(photo, ()))
                 chances += [

@@ -20,6 +20,7 @@ from ..session import Session
 from .folder import BatchFolder
 from .looks import look_at
 from .matches import match_at
+from .overlap_blocks import overlaps_at
 from .passing import may_pass
 from .registrations import Registrations
 
@@ -127,11 +128,18 @@ class _Worker:
 
     def look(self, request):
         """Take a first look at what photos may show a scan."""
+        return self._found(look_at, request)
+
+    def overlap(self, request):
+        """Find out which photos overlap."""
+        return self._found(overlaps_at, request)
+
+    def _found(self, find, request):
         limit_threads(request["threads"])
         found = {}
 
         def act():
-            found.update(look_at(request, progress=self.show, cancelled=self.cancelled))
+            found.update(find(request, progress=self.show, cancelled=self.cancelled))
 
         return self._outcome(act) | {"found": found}
 
@@ -150,7 +158,7 @@ class _Worker:
         return outcome | {"seconds": round(time.perf_counter() - start, 3), "peak_bytes": _peak_bytes()}
 
 
-_WORK = {"run": _Worker.run, "look": _Worker.look, "match": _Worker.match}
+_WORK = {"run": _Worker.run, "look": _Worker.look, "overlap": _Worker.overlap, "match": _Worker.match}
 
 
 def _peak_bytes():

@@ -1,4 +1,4 @@
-"""Tentative matches by local features, and the homographies that they support."""
+"""Local features of images, tentative matches between them, and the homographies that they support."""
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class ScanPoints:
     """
 
     def __init__(self, grid_image, scan_shape):
-        self._image, self._scan_shape = _sized(grid_image), scan_shape
+        self._image, self._scan_shape = sized(grid_image), scan_shape
         self._found = {}
 
     def homographies(self, photo, step=lambda: None):
@@ -44,11 +44,11 @@ class ScanPoints:
         for variant in VARIANTS:
             step()
             if variant not in self._found:
-                self._found[variant] = _described(self._image, variant)
+                self._found[variant] = described(self._image, variant)
             own, (other, other_shape) = self._found[variant], _of_photo(photo, variant)
             to_grid = np.diag([rows_columns[1] / shape[1], rows_columns[0] / shape[0], 1.0])
             to_photo = np.diag([photo.width / other_shape[1], photo.height / other_shape[0], 1.0])
-            points = _matches(own, other)
+            points = matches(own, other)
             if points is None:
                 continue
             own_at, other_at, turn = points
@@ -59,7 +59,7 @@ class ScanPoints:
                 found, _ = cv2.findHomography(
                     own_at[chosen], other_at[chosen], cv2.USAC_MAGSAC, 4.0, maxIters=20_000, confidence=0.999
                 )
-                if found is not None and _sane(found, shape):
+                if found is not None and is_sane(found, shape):
                     matrix = to_photo @ found @ np.linalg.inv(to_grid)
                     yield GridHomography(matrix / matrix[2, 2], rows_columns, photo.width, photo.height)
 
@@ -68,11 +68,11 @@ def _of_photo(photo, variant):
     """A photo's features of a variant, and the shape of the image that they are counted in."""
     variant = "contrast" if variant == "inverted" else variant
 
-    def described():
-        image = _sized(photo.gray)
-        return _described(image, variant), image.shape
+    def its_own():
+        image = sized(photo.gray)
+        return described(image, variant), image.shape
 
-    return photo.once(("features", variant), described)
+    return photo.once(("features", variant), its_own)
 
 
 def straight(scan_shape, photo):
@@ -81,11 +81,12 @@ def straight(scan_shape, photo):
     return GridHomography(matrix, scan_shape, photo.width, photo.height)
 
 
-def _sized(image):
+def sized(image, side=_SIDE):
+    """Return an image whose longer side has so many pixels."""
     import cv2
 
-    scale = _SIDE / max(image.shape)
-    size = tuple(max(16, round(side * scale)) for side in image.shape[::-1])
+    scale = side / max(image.shape)
+    size = tuple(max(16, round(length * scale)) for length in image.shape[::-1])
     return cv2.resize(image, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC)
 
 
@@ -104,11 +105,27 @@ def _variant(image, name):
     return 255 - image if name == "inverted" else image
 
 
-def _described(image, variant):
-    """Where local features are, (N, 2) float32, what they look like, and how they are turned; None where too few."""
+def described(image, variant, most=_MOST_POINTS):
+    """Return the local features of an image.
+
+    Parameters
+    ----------
+    image : (h, w) float32
+        0..255.
+    variant : str
+        One of `VARIANTS`.
+    most : int
+        How many are sought.
+
+    Returns
+    -------
+    tuple or None
+        Where they are, (N, 2) float32 (x, y), what they look like, (N, 128) float32, and how they are turned, (N,)
+        float64 degrees, in a fixed order; None where there are too few.
+    """
     import cv2
 
-    detector = cv2.SIFT_create(_MOST_POINTS, contrastThreshold=0.02)
+    detector = cv2.SIFT_create(most, contrastThreshold=0.02)
     points, descriptors = detector.detectAndCompute(_variant(image, variant), None)
     if descriptors is None or len(points) < _LEAST_MATCHES:
         return None
@@ -119,16 +136,29 @@ def _described(image, variant):
     return at[order] + 0.5, descriptors[order], angle
 
 
-def _matches(own, other):
-    """Points that may belong together, (N, 2) float32 of each image, and by how many degrees (N,) one is turned against
-    the other, in a fixed order; None where too few."""
+def matches(own, other, ratio=_RATIO):
+    """Return which features of two images may show the same.
+
+    Parameters
+    ----------
+    own, other : tuple or None
+        From `described`.
+    ratio : float
+        At most so many times as different as the second best must the best one be.
+
+    Returns
+    -------
+    tuple or None
+        Where they are in each image, (N, 2) float32, and by how many degrees one is turned against the other, (N,)
+        float64, in a fixed order; None where they are too few.
+    """
     import cv2
 
     if own is None or other is None:
         return None
     (own_at, own_described, own_angle), (other_at, other_described, other_angle) = own, other
     pairs = cv2.BFMatcher(cv2.NORM_L2).knnMatch(own_described, other_described, k=2)
-    pairs = [pair[0] for pair in pairs if len(pair) == 2 and pair[0].distance < _RATIO * pair[1].distance]
+    pairs = [pair[0] for pair in pairs if len(pair) == 2 and pair[0].distance < ratio * pair[1].distance]
     if len(pairs) < _LEAST_MATCHES:
         return None
     # MAGSAC weighs the first ones first.
@@ -138,8 +168,16 @@ def _matches(own, other):
     return own_at[first], other_at[second], turn
 
 
-def _sane(matrix, shape):
-    """Whether the image of the whole rectangle is a convex quadrangle of the same sense, on one side of the horizon."""
+def is_sane(matrix, shape):
+    """Return whether a homography maps a whole image to a convex quadrangle of the same sense, on one side of the
+    horizon.
+
+    Parameters
+    ----------
+    matrix : (3, 3) float64
+    shape : (height, width)
+        Of the image.
+    """
     height, width = shape
     corners = np.array([[0, 0, 1], [width, 0, 1], [width, height, 1], [0, height, 1]], float) @ matrix.T
     if (corners[:, 2] * corners[0, 2] <= 0).any():

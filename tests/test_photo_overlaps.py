@@ -1,0 +1,196 @@
+"""Photos that overlap are of one place: where one of them was found, the others are tried, too."""
+
+import csv
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from test_photo_claims import HALL, HALL_AGAIN, claim
+
+from benchmarks.rooms import Room
+from reflcolor_addon.batch.archive import candidates, look_stage, match_stage, overlap_blocks, overlap_stage, tries
+from reflcolor_addon.batch.archive.folder import BatchFolder
+from reflcolor_addon.batch.archive.overlap_blocks import overlaps_at
+from reflcolor_addon.batch.archive.overlaps import Described, agreement, overlap
+from reflcolor_addon.batch.archive.tries import Tries
+from reflcolor_addon.batch.archive.verdicts import Verdicts
+from reflcolor_addon.cli.main import main
+from reflcolor_addon.errors import Cancelled
+from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.writers import write_ptx
+from reflcolor_addon.matching.photo_image import PhotoImage
+
+ASIDE = (0.4, -0.3)
+
+
+def described(rgb):
+    return Described.of(PhotoImage("photo", rgb))
+
+
+@pytest.fixture(scope="module")
+def of_rooms():
+    return {(room, number): described(Room(room).photo(number)) for room in (1, 2, 3) for number in (1, 2)}
+
+
+def test_photos_of_one_room_overlap_and_those_of_others_do_not(of_rooms):
+    for one, own in of_rooms.items():
+        for other, its in of_rooms.items():
+            assert overlap(own, its) == (one[0] == other[0])
+    assert agreement(of_rooms[1, 1], of_rooms[1, 2]) > 0.95
+
+
+def test_darker_and_smaller_photos_overlap_as_well():
+    bright = Room(1).photo(1, 480, 360)
+    dark = np.uint8(0.3 * Room(1).photo(2, 240, 180) + 20)
+    assert overlap(described(bright), described(dark)) and overlap(described(dark), described(bright))
+
+
+def test_the_same_pattern_in_other_brightness_is_not_the_same_thing():
+    rng = np.random.default_rng(0)
+    outlines = np.kron(rng.integers(0, 2, (12, 16)), np.ones((20, 20)))
+
+    def tiles(seed):
+        # Wherever the pattern has an edge, both photos have one, but each shade is drawn anew.
+        shade = np.random.default_rng(seed).uniform(40, 215, (12, 16))
+        image = np.kron(shade, np.ones((20, 20)))
+        return np.uint8(np.where(outlines > 0, image, 255 - image))[..., None].repeat(3, axis=2)
+
+    assert agreement(described(tiles(1)), described(tiles(1))) == pytest.approx(1)
+    assert not overlap(described(tiles(1)), described(tiles(2)))
+    assert not overlap(described(tiles(1)), described(255 - tiles(1)))
+
+
+def test_a_photo_of_nothing_overlaps_nothing(of_rooms):
+    gray = described(np.full((180, 240, 3), 90, np.uint8))
+    noise = described(np.random.default_rng(0).integers(0, 255, (180, 240, 3), np.uint8))
+    for own in (gray, noise):
+        assert not any(overlap(own, other) or overlap(other, own) for other in of_rooms.values())
+    assert agreement(gray, gray) == 0
+
+
+def request(folder, photos, others=None, hashes=None):
+    others = photos if others is None else others
+    hashes = hashes or {path: f"hash of {path[-7:-4]}" for path in photos + others}
+    return {"folder": str(folder), "photos": photos, "others": others, "hashes": hashes}
+
+
+@pytest.fixture
+def photos(tmp_path):
+    (folder := BatchFolder(tmp_path / "out")).make()
+    paths = [str(tmp_path / f"p{room}{number}.png") for room in (1, 2) for number in (1, 2)]
+    for path in paths:
+        write_png(path, Room(int(path[-6])).photo(int(path[-5])))
+    return folder.root, paths
+
+
+def test_a_worker_names_the_pairs_that_overlap_and_does_not_compare_them_again(photos, monkeypatch):
+    root, paths = photos
+    work = {"progress": lambda *_: None, "cancelled": lambda: False}
+    found = overlaps_at(request(root, paths), **work)
+    assert found == {"overlaps": [paths[:2], paths[2:]], "worked": 1.0}
+    across = overlaps_at(request(root, paths[:1], paths[1:]), **work)
+    assert across == {"overlaps": [paths[:2]], "worked": 1.0}
+    monkeypatch.setattr(overlap_blocks, "overlap", None)
+    assert overlaps_at(request(root, paths), **work) == {"overlaps": [paths[:2], paths[2:]], "worked": 0.0}
+    with pytest.raises(Cancelled):
+        overlaps_at(request(root, paths[1:]), progress=lambda *_: None, cancelled=lambda: True)
+
+
+def test_a_photo_that_cannot_be_read_overlaps_nothing(photos):
+    root, paths = photos
+    Path(paths[1]).write_bytes(b"not a picture")
+    found = overlaps_at(request(root, paths), progress=lambda *_: None, cancelled=lambda: False)
+    assert found["overlaps"] == [paths[2:]]
+
+
+def compared(count, scans, left_out=()):
+    """The pairs of photos, by their numbers, that the workers are asked to compare."""
+    tasks = []
+    context = SimpleNamespace(
+        work_again=lambda own, *_: tasks.extend(own),
+        problems=dict.fromkeys(left_out, "damaged"),
+        folder=SimpleNamespace(root="out", log=lambda name: name),
+        costs=SimpleNamespace(memory=lambda scans: 0),
+    )
+    names = {str(number): str(number) for number in range(count)}
+    overlap_stage.overlapping(context, SimpleNamespace(photos=names, hashes=names), scans)
+    pairs = []
+    for task in tasks:
+        own, others = task.request["photos"], task.request["others"]
+        assert max(len(own), len(others)) <= 100
+        pairs += [
+            tuple(sorted((int(one), int(other)))) for one in own for other in others if own != others or one < other
+        ]
+    return pairs
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 7, 40, 250])
+def test_every_pair_of_photos_is_compared_once(count):
+    pairs = compared(count, scans=30)
+    assert len(pairs) == len(set(pairs)) == count * (count - 1) // 2
+
+
+def test_of_very_many_photos_those_are_compared_that_are_next_to_each_other():
+    pairs = set(compared(1000, scans=10))
+    assert {(number, number + away) for away in (1, 50, 100) for number in range(1000 - away)} <= pairs
+    assert max(other - one for one, other in pairs) < 300
+
+
+def test_photos_that_cannot_be_read_are_not_compared():
+    assert not any("3" in map(str, pair) for pair in compared(10, 30, left_out=["3"]))
+
+
+def test_what_a_photo_shows_is_tried_for_those_that_overlap_it_beyond_the_share_of_all_pairs():
+    names = [f"scan {number}" for number in range(30)]
+    ranks = {f"{photo}": [(name, 1.0 / (k + 1)) for k, name in enumerate(names)] for photo in range(40)}
+    both = [claim(name, 80.0, seen, evidence=2.0) for name, seen in (("scan 20", HALL), ("scan 21", HALL_AGAIN))]
+    overlaps = {"0": {"1"}, "1": {"0", "2"}, "2": {"1"}}
+    chosen = Tries(ranks, {}, overlaps=overlaps)
+    assert len(chosen.next(Verdicts({}), {})["scan 0"]) == 40
+    second = chosen.next(Verdicts({"0": both}), {})
+    assert {("1", "scan 20"), ("1", "scan 21")} <= {(photo, name) for name, own in second.items() for photo in own}
+    # It is passed on once it was found there, and not before.
+    assert "2" not in second.get("scan 20", ())
+    third = chosen.next(Verdicts({"0": both, "1": both[:1]}), {})
+    assert "2" in third["scan 20"] and "2" in third["scan 21"]
+    pairs = sum(len(own) for own in second.values()) + sum(len(own) for own in third.values())
+    while more := chosen.next(Verdicts({}), {}):
+        pairs += sum(len(own) for own in more.values())
+    # Both scans for each of the three photos do not count.
+    assert pairs == int(0.09 * 1200) - 40 + 6
+
+
+def test_a_photo_that_looks_like_another_scan_is_found_by_one_that_overlaps_it(tmp_path, monkeypatch):
+    for name, number in (("b", 1), ("c", 2), ("d", 3)):
+        write_ptx(Room(number).scan(place=ASIDE, name=name), tmp_path / f"{name}.ptx")
+    for number in (1, 2):
+        write_png(tmp_path / f"photo{number}.png", Room(1).photo(number))
+    lines = ('format = "reflcolor-batch"', "version = 1", 'output = "colored"', 'scans = "*.ptx"')
+    lines += ('photos = "*.png"', 'write = "png"', "settings = { slic_segments = 60 }")
+    (tmp_path / "batch.toml").write_text("\n".join(lines), encoding="utf-8")
+    # As in a large archive, where both looks take the second photo for one of scan c: one try each.
+    right = look_stage.ranks
+
+    def misled(*arguments, **options):
+        return {
+            path: sorted(own, key=lambda pair: pair[0] != "c") if path.endswith("2.png") else own
+            for path, own in right(*arguments, **options).items()
+        }
+
+    monkeypatch.setattr(look_stage, "ranks", misled)
+    monkeypatch.setattr(look_stage, "merged", lambda first, second: second)
+    monkeypatch.setattr(match_stage, "looks_of_scans", lambda *_: {})
+    monkeypatch.setattr(candidates, "ALL_PAIRS", 0)
+    for name, value in (("_AT_ONCE", 1), ("MOST_SCANS", 1), ("_MOST_PAIRS", 0.0)):
+        monkeypatch.setattr(tries, name, value)
+    assert main(["batch", str(tmp_path / "batch.toml"), "--jobs", "1", "--keep-going"]) == 0
+    with (tmp_path / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
+        shows = {(row["scan"], row["photo"]): row["shows"] for row in csv.DictReader(file)}
+    assert shows["b", "photo1.png"] == shows["b", "photo2.png"] == "yes"
+    assert shows["c", "photo2.png"] == "no"
+    assert [name for name, own in shows.items() if own == "not tried"] == [
+        ("c", "photo1.png"),
+        ("d", "photo1.png"),
+        ("d", "photo2.png"),
+    ]
