@@ -1,13 +1,16 @@
-"""How well looks tell which scan a photo shows, and which scans are of one room: python -m benchmarks.looks [SEED ...]
+"""How well looks tell which scan a photo shows, and what is of one room: python -m benchmarks.looks [SEED ...]
 
-For the archives of benchmarks.archive with these seeds (30 scans, 40 photos). First what the looks say of photos: in
-which place they put every scan of the photo's room, where that is not the first one. Then what they say of scans: every
-scan is looked for in all others; which scans of the same room that names, and how many of others. Times are of the
-processor, for one look, with one thread.
+For the archives of benchmarks.archive with these seeds (30 scans, 40 photos). First which photos overlap: how many
+pairs are found of photos of one room, and how many of others. Then what the looks say of photos: in which place they
+put every scan of the photo's room, where that is not the first one, without and with photos that overlap.
+Then what they say of scans: every scan is looked for in all others; which scans of the same room that names, and how
+many of others. Times are of the processor, for one look, with one thread.
 """
 
 import argparse
 import time
+from collections import defaultdict
+from itertools import combinations
 from statistics import median_high
 
 import numpy as np
@@ -15,6 +18,7 @@ import numpy as np
 from benchmarks.archive import place_of, rooms_of
 from benchmarks.rooms import Room
 from reflcolor_addon.batch.archive.candidates import merged, ranks
+from reflcolor_addon.batch.archive.overlaps import LEAST_AGREEMENT, Described, agreement
 from reflcolor_addon.batch.archive.partners import look, partners, picture_of
 from reflcolor_addon.batch.archive.two_looks import first_look, second_look
 from reflcolor_addon.matching.photo_image import PhotoImage
@@ -38,32 +42,58 @@ def main():
         rooms = dict(zip(views, rooms, strict=True))
         shown = {f"photo_{number:02d}": room for number, room in enumerate(shown)}
         print(f"seed {seed}", flush=True)
-        usual = _of_photos(views, rooms, shown)
+        images = {
+            photo: PhotoImage(photo, Room(room).photo(number)) for number, (photo, room) in enumerate(shown.items())
+        }
+        usual = _of_photos(views, rooms, shown, images, _overlaps(shown, images))
         _of_scans(views, rooms, usual)
 
 
-def _of_photos(views, rooms, shown):
+def _overlaps(shown, images):
+    """Print which photos overlap; return for each the others that do."""
+    start = time.process_time()
+    described = {photo: Described.of(image) for photo, image in images.items()}
+    between, found, strangers = time.process_time(), defaultdict(set), [0.0]
+    for one, other in combinations(images, 2):
+        own = agreement(described[one], described[other])
+        if shown[one] != shown[other]:
+            strangers.append(own)
+        if own >= LEAST_AGREEMENT:
+            found[one].add(other)
+            found[other].add(one)
+    seconds, count = time.process_time() - between, len(images)
+    pairs = count * (count - 1) // 2
+    right = sum(shown[one] == shown[other] for one, own in found.items() for other in own) // 2
+    wrong = sum(map(len, found.values())) // 2 - right
+    print(f"describing a photo takes {(between - start) / count:.2f} s, comparing two {seconds / pairs:.4f} s")
+    print(f"of {pairs + 1 - len(strangers)} pairs of photos of one room {right} overlap, and of the others {wrong},")
+    print(f"  whose brightness has correlations of at most {max(strangers):.2f}")
+    return found
+
+
+def _of_photos(views, rooms, shown, images, overlaps):
     """Print what looks at photos say; return the usual score of each scan."""
     first, second, seconds = {}, {}, np.zeros(2)
     for name, own in views.items():
         first[name], second[name] = {}, {}
-        for number, (photo, room) in enumerate(shown.items()):
-            image = PhotoImage(photo, Room(room).photo(number))
+        for photo, image in images.items():
             start = time.process_time()
             first[name][photo], directions = first_look(own, image)
             between = time.process_time()
             second[name][photo] = second_look(own, image, directions)
             seconds += between - start, time.process_time() - between
-    both = merged(ranks(first), ranks(second, second=True))
-    places = {
-        f"{name}+{photo}": 1 + [other for other, _ in both[photo]].index(name)
-        for name, room in rooms.items()
-        for photo, own in shown.items()
-        if own == room
-    }
-    later = [f"{pair} {place}" for pair, place in places.items() if place > 1]
     print("a first look takes {:.2f} s, a second one {:.2f} s".format(*seconds / len(views) / len(shown)))
-    print(f"of {len(places)} true pairs {len(places) - len(later)} are in the first place; the others:", *later)
+    for which, known in (("by itself", {}), ("with those that overlap", overlaps)):
+        both = merged(ranks(first, overlaps=known), ranks(second, overlaps=known, second=True))
+        places = {
+            f"{name}+{photo}": 1 + [other for other, _ in both[photo]].index(name)
+            for name, room in rooms.items()
+            for photo, own in shown.items()
+            if own == room
+        }
+        later = [f"{pair} {place}" for pair, place in places.items() if place > 1]
+        print(f"each photo {which}: of {len(places)} true pairs {len(places) - len(later)} are in the first place;")
+        print("  the others:", *later)
     return {name: median_high(own.values()) for name, own in first.items()}
 
 

@@ -15,6 +15,12 @@ run() { # VERSION TARGET [KIND]...
         || failed="$failed $version:$target"
 }
 
+# The last environment is made while the first tests run: that is mostly waiting for files.
+making=
+if tools/find_python.sh 3.13 >/dev/null 2>&1 && tools/find_python.sh 3.11 >/dev/null 2>&1; then
+    "${MAKE:-make}" --no-print-directory setup VENV=.venv-3.11 FOR_PYTHON=3.11 >/dev/null 2>&1 &
+    making=$!
+fi
 kinds="plain blender"
 for version in 3.13 3.11; do
     if ! tools/find_python.sh "$version" >/dev/null 2>&1; then
@@ -22,6 +28,8 @@ for version in 3.13 3.11; do
         continue
     fi
     [ -n "$tested" ] || run "$version" check
+    # If it could not be made, that is tried once more, and told.
+    [ "$version" != 3.11 ] || [ -z "$making" ] || wait "$making" || true
     # shellcheck disable=SC2086
     run "$version" test-one $kinds
     [ "$version" != 3.13 ] || run "$version" test-newest

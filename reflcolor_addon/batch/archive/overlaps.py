@@ -18,7 +18,7 @@ _SIDE, _MOST_POINTS = 480, 500
 _RATIO, _NEAR_PX, _MOST_TRIES = 0.85, 4.0, 5000
 # Of 4 of the archives of ``python -m benchmarks.looks``, photos of different rooms have at most 13 points in common and
 # correlate with at most 0.55.
-_LEAST_POINTS, _LEAST_AGREEMENT = 12, 0.7
+_LEAST_POINTS, LEAST_AGREEMENT = 12, 0.7
 _LEAST_PIXELS = 200
 # What is finer than this, in pixels, differs between two photos because of noise and sharpness.
 _BLUR_PX = 2.0
@@ -82,4 +82,4 @@ def agreement(one, other):
 
 def overlap(one, other):
     """Return whether two photos certainly show partly the same thing; see `agreement`."""
-    return agreement(one, other) >= _LEAST_AGREEMENT
+    return agreement(one, other) >= LEAST_AGREEMENT
