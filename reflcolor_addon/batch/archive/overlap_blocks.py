@@ -32,9 +32,9 @@ def overlaps_at(request, *, progress, cancelled):
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
     blocks = [[hashes[path] for path in request[which]] for which in ("photos", "others")]
     key = digest_of([program_digest(), "overlaps", *blocks])
-    known = folder.recall(KIND, key)
+    known = (folder.recall(KIND, key) or {}).get("overlaps")
     if known is not None:
-        return {"overlaps": _paths(request, known["overlaps"]), "worked": 0.0}
+        return {"overlaps": _paths(request, known), "worked": 0.0}
     described, paths = {}, list(dict.fromkeys(request["photos"] + request["others"]))
 
     def step(fraction, path):
