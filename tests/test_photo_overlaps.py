@@ -12,7 +12,7 @@ from benchmarks.rooms import Room
 from reflcolor_addon.batch.archive import candidates, look_stage, match_stage, overlap_blocks, overlap_stage, tries
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.overlap_blocks import overlaps_at
-from reflcolor_addon.batch.archive.overlaps import Described, agreement, overlap
+from reflcolor_addon.batch.archive.overlaps import LEAST_AGREEMENT, Described, agreement
 from reflcolor_addon.batch.archive.tries import Tries
 from reflcolor_addon.batch.archive.verdicts import Verdicts
 from reflcolor_addon.cli.main import main
@@ -22,6 +22,10 @@ from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.matching.photo_image import PhotoImage
 
 ASIDE = (0.4, -0.3)
+
+
+def overlap(one, other):
+    return agreement(one, other) >= LEAST_AGREEMENT
 
 
 def described(rgb):
@@ -88,11 +92,12 @@ def test_a_worker_names_the_pairs_that_overlap_and_does_not_compare_them_again(p
     root, paths = photos
     work = {"progress": lambda *_: None, "cancelled": lambda: False}
     found = overlaps_at(request(root, paths), **work)
-    assert found == {"overlaps": [paths[:2], paths[2:]], "worked": 1.0}
+    assert [pair[:2] for pair in found["overlaps"]] == [paths[:2], paths[2:]] and found["worked"] == 1
+    assert all(0.9 < agreed <= 1 for *_, agreed in found["overlaps"])
     across = overlaps_at(request(root, paths[:1], paths[1:]), **work)
-    assert across == {"overlaps": [paths[:2]], "worked": 1.0}
-    monkeypatch.setattr(overlap_blocks, "overlap", None)
-    assert overlaps_at(request(root, paths), **work) == {"overlaps": [paths[:2], paths[2:]], "worked": 0.0}
+    assert across == {"overlaps": found["overlaps"][:1], "worked": 1.0}
+    monkeypatch.setattr(overlap_blocks, "agreement", None)
+    assert overlaps_at(request(root, paths), **work) == found | {"worked": 0.0}
     with pytest.raises(Cancelled):
         overlaps_at(request(root, paths[1:]), progress=lambda *_: None, cancelled=lambda: True)
 
@@ -101,22 +106,33 @@ def test_a_photo_that_cannot_be_read_overlaps_nothing(photos):
     root, paths = photos
     Path(paths[1]).write_bytes(b"not a picture")
     found = overlaps_at(request(root, paths), progress=lambda *_: None, cancelled=lambda: False)
-    assert found["overlaps"] == [paths[2:]]
+    assert [pair[:2] for pair in found["overlaps"]] == [paths[2:]]
 
 
-def compared(count, scans, left_out=()):
-    """The pairs of photos, by their numbers, that the workers are asked to compare."""
+def asked(count, scans, left_out=(), agreed=()):
+    """What the workers are asked, and what follows if they answer that photos, by their numbers, agree so well."""
     tasks = []
+
+    def work(own, done, *_):
+        tasks.extend(own)
+        for task in own:
+            of_task = [one for one in agreed if one[0] in task.request["photos"] and one[1] in task.request["others"]]
+            done(task, {"found": {"overlaps": of_task}})
+
     context = SimpleNamespace(
-        work_again=lambda own, *_: tasks.extend(own),
+        work_again=work,
         problems=dict.fromkeys(left_out, "damaged"),
         folder=SimpleNamespace(root="out", log=lambda name: name),
         costs=SimpleNamespace(memory=lambda scans: 0),
     )
     names = {str(number): str(number) for number in range(count)}
-    overlap_stage.overlapping(context, SimpleNamespace(photos=names, hashes=names), scans)
+    return tasks, overlap_stage.overlapping(context, SimpleNamespace(photos=names, hashes=names), scans)
+
+
+def compared(count, scans, left_out=()):
+    """The pairs of photos, by their numbers, that the workers are asked to compare."""
     pairs = []
-    for task in tasks:
+    for task in asked(count, scans, left_out)[0]:
         own, others = task.request["photos"], task.request["others"]
         assert max(len(own), len(others)) <= 100
         pairs += [
@@ -139,6 +155,12 @@ def test_of_very_many_photos_those_are_compared_that_are_next_to_each_other():
 
 def test_photos_that_cannot_be_read_are_not_compared():
     assert not any("3" in map(str, pair) for pair in compared(10, 30, left_out=["3"]))
+
+
+def test_of_a_photo_that_overlaps_very_many_the_best_are_kept():
+    found = asked(40, 30, agreed=[("0", str(other), 0.7 + 0.005 * other) for other in range(1, 20)])[1]
+    assert found["0"] == {str(other) for other in range(8, 20)}
+    assert all(found[str(other)] == {"0"} for other in range(1, 20)) and len(found) == 20
 
 
 def test_what_a_photo_shows_is_tried_for_those_that_overlap_it_beyond_the_share_of_all_pairs():

@@ -6,7 +6,7 @@ from ...errors import Cancelled, ReflcolorError
 from ...matching.photo_image import PhotoImage
 from .fingerprints import digest_of, program_digest
 from .folder import BatchFolder
-from .overlaps import Described, overlap
+from .overlaps import LEAST_AGREEMENT, Described, agreement
 from .sketches import sketch_of
 
 KIND = "looks"
@@ -27,7 +27,8 @@ def overlaps_at(request, *, progress, cancelled):
     Returns
     -------
     dict
-        ``overlaps``: pairs of paths; ``worked``: which share of the work had not been done before.
+        ``overlaps``: two paths, and how well the photos agree, of those that do; ``worked``: which share of the work
+        had not been done before.
     """
     folder, hashes = BatchFolder(Path(request["folder"])), request["hashes"]
     blocks = [[hashes[path] for path in request[which]] for which in ("photos", "others")]
@@ -54,11 +55,13 @@ def overlaps_at(request, *, progress, cancelled):
         for place, other in enumerate(request["others"]):
             if same and place <= number:
                 continue
-            if path in described and other in described and overlap(described[path], described[other]):
-                found.append([number, place])
+            if path in described and other in described:
+                agreed = agreement(described[path], described[other])
+                if agreed >= LEAST_AGREEMENT:
+                    found.append([number, place, agreed])
     folder.remember(KIND, key, {"overlaps": found})
     return {"overlaps": _paths(request, found), "worked": 1.0}
 
 
 def _paths(request, places):
-    return [[request["photos"][one], request["others"][other]] for one, other in places]
+    return [[request["photos"][one], request["others"][other], agreed] for one, other, agreed in places]

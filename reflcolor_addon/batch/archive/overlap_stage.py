@@ -7,6 +7,8 @@ from .workers import Task
 
 # Photos are described once for each block that theirs is compared with; that takes as long as comparing each with 12.
 _LARGEST_BLOCK, _DESCRIBING = 100, 12
+# So many of those that overlap a photo tell all there is to know: what is found for others is passed on by these.
+_MOST_OVERLAPS = 12
 
 
 def overlapping(context, looks, scans):
@@ -23,7 +25,7 @@ def overlapping(context, looks, scans):
     Returns
     -------
     dict of str to set of str
-        For the path of each photo the paths of others.
+        For the path of each photo the paths of others, of those that agree best.
     """
     paths = [path for path in looks.photos if looks.hashes[path] and path not in context.problems]
     size = max(1, min(_LARGEST_BLOCK, -(-len(paths) // 2)))
@@ -34,16 +36,16 @@ def overlapping(context, looks, scans):
         for number in range(len(blocks))
         for later in range(number, min(number + reach + 1, len(blocks)))
     ]
-    found = defaultdict(set)
+    found = defaultdict(list)
 
     def compared(task, outcome):
-        for one, other in outcome["found"]["overlaps"]:
-            found[one].add(other)
-            found[other].add(one)
+        for one, other, agreed in outcome["found"]["overlaps"]:
+            found[one].append((-agreed, other))
+            found[other].append((-agreed, one))
 
     # Without it, the order in which pairs are tried is not as good; nothing else is lost.
     context.work_again(tasks, compared, lambda task: None, "Compared groups of photos")
-    return found
+    return {photo: {other for _, other in sorted(own)[:_MOST_OVERLAPS]} for photo, own in found.items()}
 
 
 def _task(context, number, later, blocks, hashes):

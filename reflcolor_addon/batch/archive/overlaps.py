@@ -16,9 +16,10 @@ from ...matching.registration.features import described, is_sane, matches, sized
 MOST_COMPARED = 10
 _SIDE, _MOST_POINTS = 480, 500
 _RATIO, _NEAR_PX, _MOST_TRIES = 0.85, 4.0, 5000
-# Of 4 of the archives of ``python -m benchmarks.looks``, photos of different rooms have at most 13 points in common and
-# correlate with at most 0.55.
-_LEAST_POINTS, LEAST_AGREEMENT = 12, 0.7
+# What photos of different rooms have is printed by ``python -m benchmarks.looks``.
+_LEAST_POINTS = 12
+LEAST_AGREEMENT = 0.7
+"""Photos overlap if they agree by so much; see `agreement`."""
 _LEAST_PIXELS = 200
 # What is finer than this, in pixels, differs between two photos because of noise and sharpness.
 _BLUR_PX = 2.0
@@ -78,8 +79,3 @@ def agreement(one, other):
     if common.sum() < _LEAST_PIXELS or np.ptp(moved[common]) == 0 or np.ptp(other.image[common]) == 0:
         return 0.0
     return float(np.corrcoef(moved[common], other.image[common])[0, 1])
-
-
-def overlap(one, other):
-    """Return whether two photos certainly show partly the same thing; see `agreement`."""
-    return agreement(one, other) >= LEAST_AGREEMENT
