@@ -113,12 +113,12 @@ def test_at_second_looks_a_scan_with_much_detail_keeps_some_of_its_lead():
     assert ranks(scores)["a"][-1][0] == "detailed"
 
 
-def test_what_both_looks_speak_for_is_tried_first_and_what_was_seen_once_last():
+def test_what_both_looks_speak_for_and_what_the_first_one_does_are_tried_in_turn():
     # After the second look the first one counts by its fourth root: 1, 0.8 and 0.4.
     first = {"a": [("hall", 1.0), ("attic", 0.8**4), ("yard", 0.4), ("cellar", 0.4**4)]}
     second = {"a": [("cellar", 1.0), ("attic", 0.6), ("hall", 0.1)]}
     found = merged(first, second)["a"]
-    assert [name for name, _ in found] == ["attic", "cellar", "hall", "yard"]
+    assert [name for name, _ in found] == ["attic", "hall", "cellar", "yard"]
     assert [share for _, share in found] == pytest.approx([1.0, 0.4 / 0.48, 0.1 / 0.48, 0.0])
 
 

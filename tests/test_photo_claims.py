@@ -67,6 +67,34 @@ def test_a_photo_for_whose_other_place_more_speaks_shows_none_unless_it_would_fi
     assert verdict([claim("hall", 30.0, HALL), replace(other, reflectance=HALL_AGAIN)]).shown == ("hall",)
 
 
+def of_two_that_overlap(*claims, by_other, partners=None):
+    """The verdict on a photo that overlaps another one, which is verified on some items."""
+    found = {"a": list(claims), "b": [claim(item, strength, picture=item) for item, strength in by_other.items()]}
+    return Verdicts(found, overlaps={"a": {"b"}}, partners=partners).by_photo()["a"]
+
+
+def test_a_photo_gives_no_colors_where_one_that_overlaps_it_clearly_shows_another_place():
+    barely, missed = claim("cellar", 30.0, CELLAR), claim("hall", 20.0, HALL, verified=False)
+    assert verdict([barely, missed]).shown == ("cellar",)
+    found = of_two_that_overlap(barely, missed, by_other={"hall": 26.0})
+    assert found == Verdict(refused=("cellar",), likelier=("hall",))
+    # Neither if that speaks for it not as clearly, nor if the photo was not tried there.
+    assert of_two_that_overlap(barely, missed, by_other={"hall": 24.0}).shown == ("cellar",)
+    assert of_two_that_overlap(barely, by_other={"hall": 90.0}).shown == ("cellar",)
+    assert of_two_that_overlap(barely, missed, by_other={"attic": 90.0}).shown == ("cellar",)
+
+
+def test_photos_that_overlap_may_be_verified_on_different_scans_of_one_place():
+    one, missed = claim("hall again", 30.0, HALL_AGAIN), claim("hall", 20.0, CELLAR, verified=False)
+    assert not of_two_that_overlap(one, missed, by_other={"hall": 60.0}).shown
+    # That they are of one place is known from what the scans measured, or from a third photo.
+    known = {"hall": ["hall again"]}
+    assert of_two_that_overlap(one, missed, by_other={"hall": 60.0}, partners=known).shown == ("hall again",)
+    found = {"a": [one, missed], "b": [claim("hall", 60.0)]}
+    found["c"] = [claim("hall", 60.0, HALL), claim("hall again", 60.0, HALL_AGAIN)]
+    assert Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown == ("hall again",)
+
+
 def test_what_a_look_saw_counts_where_a_match_found_less():
     other = claim("cellar", 15.0, CELLAR, verified=False)
     assert verdict([claim("hall", 31.0, HALL, looked=33.0), replace(other, looked=34.0)]).likelier == ("cellar",)

@@ -2,6 +2,7 @@
 
 import math
 from bisect import bisect_left, bisect_right
+from itertools import chain
 from statistics import median_high
 
 from ...files.exif import Moment
@@ -71,6 +72,9 @@ def ranks(scores, moments=None, scanned=None, overlaps=None, second=False):
 def merged(first, second):
     """Return ranks by two looks: a pair is as likely as the one and the other say together.
 
+    Either look misses some of the right pairs that the other one sees. So the places are taken in turn by what both
+    speak for and by what the first one alone does; how likely a pair is follows from its place.
+
     Parameters
     ----------
     first, second : dict of str to list of (str, float)
@@ -80,8 +84,10 @@ def merged(first, second):
     for photo, own in first.items():
         again, before = second.get(photo, []), dict(own)
         both = _of_the_best({name: share * before[name] ** _FIRST_AFTER for name, share in again})
-        rest = [(name, 0.0) for name, _ in own if name not in both]
-        found[photo] = sorted(both.items(), key=lambda entry: (-entry[1], entry[0])) + rest
+        shares = sorted(both.items(), key=lambda entry: (-entry[1], entry[0]))
+        shares += [(name, 0.0) for name, _ in own if name not in both]
+        places = dict.fromkeys(chain.from_iterable(zip((name for name, _ in shares), before, strict=True)))
+        found[photo] = [(name, share) for name, (_, share) in zip(places, shares, strict=True)]
     return found
 
 

@@ -222,7 +222,7 @@ class _Rounds:
                 # A scan without any return claims nothing.
                 if pairs:
                     claims[path].append(self._claim(name, path, pairs))
-        return Verdicts(claims, self._compared)
+        return Verdicts(claims, self._compared, self._looks.overlaps, self._partners)
 
     def partners(self, verdicts):
         """The items that are probably of the place which a photo was found to show, for the path of each photo."""

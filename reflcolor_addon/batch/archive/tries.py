@@ -13,7 +13,7 @@ _MISSED = 0.4
 _ANOTHER, _WORTH = 0.2, 0.05
 # Which share of all pairs is matched at most, beyond the first round and scans that another photo shows to be of one
 # place.
-_MOST_PAIRS = 0.09
+_MOST_PAIRS = 0.105
 
 
 class Tries:

@@ -23,16 +23,21 @@ class Verdicts:
         For the path of each photo those on all items that it was matched with.
     known : dict, optional
         Where comparisons of claims are kept from one time to the next.
+    overlaps : dict of str to set of str, optional
+        For the path of each photo those of others that show partly the same.
+    partners : dict of str to list of str, optional
+        For the `Claim.picture` of what a scan measured the items that are probably of the same place.
     """
 
-    def __init__(self, claims, known=None):
+    def __init__(self, claims, known=None, overlaps=None, partners=None):
         self._known = {} if known is None else known
-        self._claims = claims
+        self._claims, self._overlaps, self._partners = claims, overlaps or {}, partners or {}
         self._of_photo = {claim: own for own in claims.values() for claim in own}
+        self._path_of = {claim: path for path, own in claims.items() for claim in own}
         self._verified = [claim for own in claims.values() for claim in own if claim.verified]
         # Whatever contradicts a claim, for each; and what speaks for it, together with the best photo that agrees.
         self._rivals, self._weights = defaultdict(list), {claim: claim.strength for claim in self._verified}
-        self._supported = set()
+        self._supported, self._of_one_place = set(), set()
         self._compare_photos()
         self._compare_places()
         self._shown, self._refused = set(), set()
@@ -100,6 +105,8 @@ class Verdicts:
             for one, other in combinations([claim for claim in own if claim.verified], 2):
                 if not self._compared(one, other, same_place):
                     self._contradict(one, other)
+                else:
+                    self._of_one_place |= {(one.item, other.item), (other.item, one.item)}
 
     def _contradict(self, one, other):
         self._rivals[one].append(other)
@@ -145,7 +152,24 @@ class Verdicts:
         """Whether more speaks for a claim than for one that was verified, in the match or in the second look."""
         # Matching does not always end where the look saw most; but looks tell only where both places were looked at.
         looked = (other.looked, claim.looked) if other.looked and claim.looked else (0.0, 0.0)
-        return max(other.strength, looked[0]) > max(self._weights[claim], looked[1])
+        if max(other.strength, looked[0]) > max(self._weights[claim], looked[1]):
+            return True
+        backed = self._backing(other, claim)
+        return backed > 0 and other.strength + backed >= CLEARLY * self._weights[claim]
+
+    def _backing(self, other, claim):
+        """What speaks for another place because a photo that overlaps this one was verified there."""
+        if (other.item, claim.item) in self._of_one_place:
+            return 0.0
+        return max(
+            (
+                its.strength
+                for path in self._overlaps.get(self._path_of[claim], ())
+                for its in self._claims.get(path, ())
+                if its.verified and its.item == other.item and claim.item not in self._partners.get(its.picture, ())
+            ),
+            default=0.0,
+        )
 
 
 def _names(claims):
