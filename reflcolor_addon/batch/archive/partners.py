@@ -21,8 +21,8 @@ _MOST_PIXELS = 640
 # How much narrower it is than one with a pixel for each return, so that nearly every pixel has one.
 _FILLED = 0.8
 # A scan is a partner if the picture fits it so many times as well as it usually fits a scan, and nearly as well as the
-# best. Of 20 pictures of rooms that ``python -m benchmarks.archive`` scans twice, 18 named the other scan, with 1.3 to
-# 2.5 times the usual; all 60 pictures of two such archives named 35 other scans, with 1.3 to 2.1 times.
+# best. Of 20 pictures of rooms that were scanned twice, 18 named the other scan; all 60 pictures of two archives named
+# 46 scans of other rooms (``python -m benchmarks.looks 7 8``).
 _STANDS_OUT, _NEARLY = 1.3, 0.8
 
 
