@@ -65,6 +65,8 @@ def _overlaps(shown, images):
     pairs = count * (count - 1) // 2
     right = sum(shown[one] == shown[other] for one, own in found.items() for other in own) // 2
     wrong = sum(map(len, found.values())) // 2 - right
+    mates = sum(list(shown.values()).count(room) > 1 for room in shown.values())
+    print(f"{mates} of {count} photos have another one of their room")
     print(f"describing a photo takes {(between - start) / count:.2f} s, comparing two {seconds / pairs:.4f} s")
     print(f"of {pairs + 1 - len(strangers)} pairs of photos of one room {right} overlap, and of the others {wrong},")
     print(f"  whose brightness has correlations of at most {max(strangers):.2f}")

@@ -74,22 +74,31 @@ def of_two_that_overlap(*claims, by_other, partners=None):
 
 
 def test_a_photo_gives_no_colors_where_one_that_overlaps_it_clearly_shows_another_place():
-    barely, missed = claim("cellar", 30.0, CELLAR), claim("hall", 20.0, HALL, verified=False)
+    barely, missed = claim("cellar", 30.0, CELLAR), claim("hall", 5.0, HALL, verified=False)
     assert verdict([barely, missed]).shown == ("cellar",)
-    found = of_two_that_overlap(barely, missed, by_other={"hall": 26.0})
+    found = of_two_that_overlap(barely, missed, by_other={"hall": 41.0})
     assert found == Verdict(refused=("cellar",), likelier=("hall",))
     # Neither if that speaks for it not as clearly, nor if the photo was not tried there.
-    assert of_two_that_overlap(barely, missed, by_other={"hall": 24.0}).shown == ("cellar",)
+    assert of_two_that_overlap(barely, missed, by_other={"hall": 39.0}).shown == ("cellar",)
     assert of_two_that_overlap(barely, by_other={"hall": 90.0}).shown == ("cellar",)
     assert of_two_that_overlap(barely, missed, by_other={"attic": 90.0}).shown == ("cellar",)
 
 
+def test_a_photo_that_was_refused_itself_or_for_which_less_speaks_refuses_no_other():
+    barely, missed = claim("cellar", 30.0, CELLAR), claim("hall", 20.0, HALL, verified=False)
+    assert of_two_that_overlap(barely, missed, by_other={"hall": 28.0}).shown == ("cellar",)
+    wrong = [claim("hall", 60.0, HALL, photo="b.jpg"), claim("attic", 58.0, cells(3))]
+    found = Verdicts({"a": [barely, missed], "b": wrong}, overlaps={"a": {"b"}, "b": {"a"}}).by_photo()
+    assert found["a"].shown == ("cellar",) and not found["b"].shown
+
+
 def test_photos_that_overlap_may_be_verified_on_different_scans_of_one_place():
-    one, missed = claim("hall again", 30.0, HALL_AGAIN), claim("hall", 20.0, CELLAR, verified=False)
+    one = claim("hall again", 30.0, HALL_AGAIN, picture="again")
+    missed = claim("hall", 20.0, CELLAR, verified=False)
     assert not of_two_that_overlap(one, missed, by_other={"hall": 60.0}).shown
     # That they are of one place is known from what the scans measured, or from a third photo.
-    known = {"hall": ["hall again"]}
-    assert of_two_that_overlap(one, missed, by_other={"hall": 60.0}, partners=known).shown == ("hall again",)
+    for known in ({"hall": ["hall again"]}, {"again": ["hall"]}):
+        assert of_two_that_overlap(one, missed, by_other={"hall": 60.0}, partners=known).shown == ("hall again",)
     found = {"a": [one, missed], "b": [claim("hall", 60.0)]}
     found["c"] = [claim("hall", 60.0, HALL), claim("hall again", 60.0, HALL_AGAIN)]
     assert Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown == ("hall again",)

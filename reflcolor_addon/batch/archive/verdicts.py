@@ -158,18 +158,17 @@ class Verdicts:
         return backed > 0 and other.strength + backed >= CLEARLY * self._weights[claim]
 
     def _backing(self, other, claim):
-        """What speaks for another place because a photo that overlaps this one was verified there."""
-        if (other.item, claim.item) in self._of_one_place:
+        """What speaks for another place because a photo that overlaps this one, and for which more speaks, shows it."""
+        if (other.item, claim.item) in self._of_one_place or other.item in self._partners.get(claim.picture, ()):
             return 0.0
-        return max(
-            (
-                its.strength
-                for path in self._overlaps.get(self._path_of[claim], ())
-                for its in self._claims.get(path, ())
-                if its.verified and its.item == other.item and claim.item not in self._partners.get(its.picture, ())
-            ),
-            default=0.0,
+        # Claims for which less speaks were not decided on yet: what is refused later must not speak for anything.
+        backing = (
+            its.strength
+            for path in self._overlaps.get(self._path_of[claim], ())
+            for its in self._claims.get(path, ())
+            if its in self._shown and its.item == other.item and claim.item not in self._partners.get(its.picture, ())
         )
+        return max(backing, default=0.0)
 
 
 def _names(claims):
