@@ -6,6 +6,7 @@ pairs is compared with the truth:
 
 - true pairs lost: a photo that shows a scan, and that matching alone verifies there with a right camera, but that the
   batch did not find;
+- pairs found beyond that: of a photo that matching alone does not verify there, but that another photo helped to place;
 - false pairs: a photo said to show a scan of another room, or with a wrong camera; and contradictions, which the batch
   refused, because such a photo is verified on scans of different places;
 - a camera is right that puts what the photo shows within 5 % of the photo's width of where it is, in the median: all
@@ -35,6 +36,8 @@ from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.readers import read_scans
 from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.matching import match_photos
+from reflcolor_addon.matching.registration.registration import Registration
+from reflcolor_addon.matching.registration.stored import from_document
 from reflcolor_addon.settings import Settings
 
 SEGMENTS = 150
@@ -80,7 +83,9 @@ def main():
     matched_pairs = sum(row["shows"] != "not tried" for row in table)
     away = {pair: own["off"] for pair, own in zip(pairs, true, strict=True) if own["verified"]}
     verified = {pair for pair, off in away.items() if off <= _MOST_OFF}
-    lost, false = sorted(verified - found), sorted(found - verified)
+    off = {pair: away_of(folder, *pair, rooms[pair[1]], arguments.scans) for pair in found.intersection(pairs)}
+    correct = {pair for pair, away in off.items() if away <= _MOST_OFF}
+    lost, false = sorted(verified - found), sorted(found - correct)
     count = arguments.scans * arguments.photos
     of_true, of_wrong = (float(np.mean([own["processor"] for own in some])) for some in (true, wrong))
     everything = of_true * len(pairs) + of_wrong * (count - len(pairs))
@@ -88,7 +93,10 @@ def main():
     print(f"matching alone verifies {len(away)} true pairs, {len(verified)} with a right camera; all are off by")
     print(" ", *(f"{off:.1%}" for off in sorted(away.values())))
     print(f"true pairs lost: {len(lost)} of {len(verified)} ({len(lost) / max(len(verified), 1):.1%})", *lost)
+    print(f"pairs found beyond that: {len(correct - verified)}")
     print(f"false pairs: {len(false)} of {len(found)} found", *false)
+    print("cameras that the batch found are off by")
+    print(" ", *(f"{away:.1%}" for away in sorted(off.values())))
     print(f"contradictions: {len(refused - verified)} false pairs, {len(refused & verified)} true ones")
     print(f"matching alone verifies {sum(own['verified'] for own in wrong)} of {len(wrong)} wrong pairs")
     print(f"pairs matched after the looks: {matched_pairs} ({matched_pairs / count:.1%})")
@@ -187,6 +195,17 @@ def matched(folder, scan, photo, room=None, scans=0):
     if room is not None and found["verified"]:
         found["off"] = _off(own, matching.photos[0].model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
     return found
+
+
+def away_of(folder, scan, photo, room, scans):
+    """How far off the camera is by which a batch placed a photo of a scan's room."""
+    found = Registration.nothing()
+    for kept in map(json.loads, (path.read_text() for path in folder.glob("colored/*/matched/*.json"))):
+        if Path(kept["scan"]).stem == scan and Path(kept["photo"]).stem == photo:
+            registration = from_document(kept["registration"])
+            found = registration if registration.preferable_to(found) else found
+    (own,) = read_scans(folder / f"{scan}.ptx")
+    return _off(own, found.model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
 
 
 def _off(scan, found, room, photo, place):

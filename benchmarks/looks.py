@@ -18,10 +18,10 @@ import numpy as np
 from benchmarks.archive import place_of, rooms_of
 from benchmarks.rooms import Room
 from reflcolor_addon.batch.archive.candidates import merged, ranks
-from reflcolor_addon.batch.archive.overlaps import LEAST_AGREEMENT, Described, agreement
 from reflcolor_addon.batch.archive.partners import look, partners, picture_of
 from reflcolor_addon.batch.archive.two_looks import first_look, second_look
 from reflcolor_addon.matching.photo_image import PhotoImage
+from reflcolor_addon.matching.registration.overlaps import LEAST_AGREEMENT, Described, agreement
 from reflcolor_addon.matching.registration.registration import ScanViews
 from reflcolor_addon.threads import limit_threads
 

@@ -92,7 +92,7 @@ def contradiction(archive):
     """A batch whose one photo was verified on two scans of different places."""
     behind = {"hall_0": astuple(HALL), "hall_1": astuple(CELLAR)}
     found = {"verified": True, "tested": True, "evidence": 2.0, "note": "verified: 9 of 10 parts", "camera": None}
-    found |= {"repeats": False, "brightness": None, "picture": None}
+    found |= {"repeats": False, "brightness": None, "picture": None, "by_others": False}
     path = str(archive / "a.png")
     matched = Matched(pairs=defaultdict(dict))
     claims = []

@@ -6,20 +6,24 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from test_photo_claims import HALL, HALL_AGAIN, claim
+from test_photo_claims import CELLAR, HALL, HALL_AGAIN, claim
 
 from benchmarks.rooms import Room
 from reflcolor_addon.batch.archive import candidates, look_stage, match_stage, overlap_blocks, overlap_stage, tries
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.overlap_blocks import overlaps_at
-from reflcolor_addon.batch.archive.overlaps import LEAST_AGREEMENT, Described, agreement
+from reflcolor_addon.batch.archive.registrations import Registrations
 from reflcolor_addon.batch.archive.tries import Tries
 from reflcolor_addon.batch.archive.verdicts import Verdicts
 from reflcolor_addon.cli.main import main
 from reflcolor_addon.errors import Cancelled
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
+from reflcolor_addon.matching.models import GridHomography
 from reflcolor_addon.matching.photo_image import PhotoImage
+from reflcolor_addon.matching.registration.overlaps import LEAST_AGREEMENT, Described, agreement
+from reflcolor_addon.matching.registration.registration import Registration
+from reflcolor_addon.matching.registration.verification import Evidence
 
 ASIDE = (0.4, -0.3)
 
@@ -159,15 +163,15 @@ def test_photos_that_cannot_be_read_are_not_compared():
 
 def test_of_a_photo_that_overlaps_very_many_the_best_are_kept():
     found = asked(40, 30, agreed=[("0", str(other), 0.7 + 0.005 * other) for other in range(1, 20)])[1]
-    assert found["0"] == {str(other) for other in range(8, 20)}
-    assert all(found[str(other)] == {"0"} for other in range(1, 20)) and len(found) == 20
+    assert found["0"] == [str(other) for other in range(19, 7, -1)]
+    assert all(found[str(other)] == ["0"] for other in range(1, 20)) and len(found) == 20
 
 
 def test_what_a_photo_shows_is_tried_for_those_that_overlap_it_beyond_the_share_of_all_pairs():
     names = [f"scan {number}" for number in range(30)]
     ranks = {f"{photo}": [(name, 1.0 / (k + 1)) for k, name in enumerate(names)] for photo in range(40)}
     both = [claim(name, 80.0, seen, evidence=2.0) for name, seen in (("scan 20", HALL), ("scan 21", HALL_AGAIN))]
-    overlaps = {"0": {"1"}, "1": {"0", "2"}, "2": {"1"}}
+    overlaps = {"0": ["1"], "1": ["0", "2"], "2": ["1"]}
     chosen = Tries(ranks, {}, overlaps=overlaps)
     assert len(chosen.next(Verdicts({}), {})["scan 0"]) == 40
     second = chosen.next(Verdicts({"0": both}), {})
@@ -181,6 +185,74 @@ def test_what_a_photo_shows_is_tried_for_those_that_overlap_it_beyond_the_share_
         pairs += sum(len(own) for own in more.values())
     # Both scans for each of the three photos do not count.
     assert pairs == int(0.105 * 1200) - 40 + 6
+
+
+def helped(tries, claims):
+    """What the next round of tries is helped with: (photo, item), and by which photos."""
+    pairs = tries.next(Verdicts(claims), {})
+    return {(photo, name): by for name, own in pairs.items() for photo, by in own.items() if by}
+
+
+def test_photos_help_to_place_others_where_they_were_found():
+    ranks = {photo: [(f"scan {number}", 1.0) for number in range(30)] for photo in "abcd"}
+    tries = Tries(ranks, {}, overlaps={"a": ["c", "b"], "b": ["a"], "c": ["a"]})
+    assert helped(tries, {}) == {}
+    sure, unsure = (claim("scan 9", 80.0, evidence=evidence) for evidence in (2.0, 1.05))
+    claims = {"b": [sure], "c": [unsure], "d": [claim("scan 8", 80.0, evidence=2.0)]}
+    # What is sure needs no help, and what does not overlap helps nothing. That which agrees best comes first.
+    assert helped(tries, claims) == {("a", "scan 9"): ("c", "b")}
+    # Placed with their help, it does not help to place better what helped it. It is not tried again with the same.
+    assert helped(tries, claims | {"a": [claim("scan 9", 60.0, helpers=("c", "b"))]}) == {}
+    assert helped(tries, claims) == {}
+
+
+def test_a_photo_whose_place_is_unsure_is_placed_anew_by_others_that_were_found_without_help():
+    ranks = {photo: [(f"scan {number}", 1.0) for number in range(30)] for photo in "ab"}
+    tries = Tries(ranks, {}, overlaps={"a": ["b"], "b": ["a"]})
+    tries.next(Verdicts({}), {})
+    claims = {"a": [claim("scan 9", 20.0, evidence=1.05)], "b": [claim("scan 9", 80.0, evidence=2.0)]}
+    assert helped(tries, claims) == {("a", "scan 9"): ("b",)}
+
+
+def test_what_was_placed_by_photos_that_are_refused_is_refused_too():
+    helped = claim("hall", 90.0, photo="b.jpg", helpers=("a",))
+    right = {"a": [claim("hall", 60.0, HALL, photo="a.jpg")], "b": [helped]}
+    assert Verdicts(right).by_photo()["b"].shown == ("hall",)
+    wrong = right | {"a": [*right["a"], claim("cellar", 55.0, CELLAR, photo="a.jpg")]}
+    found = Verdicts(wrong).by_photo()
+    assert found["a"].shown == () and found["b"].refused == ("hall",)
+    assert "a.jpg, which turned out not to show it" in str(found["b"].warning("b.jpg"))
+    assert "by which it was placed" in found["b"].doubt("hall") and "a.jpg" in found["b"].doubt("hall")
+    # What it helped in turn falls, too, unless a person says that it is right.
+    chain = wrong | {"c": [claim("hall", 70.0, photo="c.jpg", helpers=("b",))]}
+    assert Verdicts(chain).by_photo()["c"].refused == ("hall",)
+    chain["c"] = [claim("hall", 70.0, photo="c.jpg", helpers=("b",), by_hand=True)]
+    assert Verdicts(chain).by_photo()["c"].shown == ("hall",)
+
+
+def registration(strength, **more):
+    evidence = Evidence(strength, 50, 60, 1.0, 1.0, strength, needed=9.0)
+    model = GridHomography(np.eye(3), (10, 10), 20, 20)
+    return Registration(model, evidence, "search", **more)
+
+
+def test_a_registration_by_others_is_kept_beside_that_without_help(tmp_path):
+    (folder := BatchFolder(tmp_path)).make()
+    hashes, job = {"a.ptx": "1", "b.jpg": "2"}, SimpleNamespace(path=Path("a.ptx"), index=1, label="a")
+    alone, by_others = Registrations(folder, hashes), Registrations(folder, hashes, helpers={"b.jpg": ["3", "4"]})
+    weak, good = registration(10.0), registration(30.0, beside="c.jpg")
+    assert alone(job, "b.jpg", lambda: weak) is weak
+    by_others.place(job, "b.jpg", lambda: good)
+    by_others.place(job, "b.jpg", pytest.fail)
+    assert by_others(job, "b.jpg", pytest.fail).beside == "c.jpg" and by_others.recalled == 0
+    again = Registrations(folder, hashes, helpers={"b.jpg": ["3", "4"]})
+    assert again(job, "b.jpg", pytest.fail).beside == "c.jpg" and again.recalled == 1
+    assert alone(job, "b.jpg", pytest.fail).beside is None
+    # Others may not place it, or not as well; and without a hash nothing is kept.
+    other = Registrations(folder, hashes, helpers={"b.jpg": ["5"]})
+    other.place(job, "b.jpg", lambda: None)
+    assert other(job, "b.jpg", pytest.fail).beside is None
+    Registrations(folder, hashes, helpers={"b.jpg": [""]}).place(job, "b.jpg", pytest.fail)
 
 
 def test_a_photo_that_looks_like_another_scan_is_found_by_one_that_overlaps_it(tmp_path, monkeypatch):
@@ -208,7 +280,9 @@ def test_a_photo_that_looks_like_another_scan_is_found_by_one_that_overlaps_it(t
         monkeypatch.setattr(tries, name, value)
     assert main(["batch", str(tmp_path / "batch.toml"), "--jobs", "1", "--keep-going"]) == 0
     with (tmp_path / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
-        shows = {(row["scan"], row["photo"]): row["shows"] for row in csv.DictReader(file)}
+        rows = list(csv.DictReader(file))
+    shows, notes = ({(row["scan"], row["photo"]): row[which] for row in rows} for which in ("shows", "note"))
+    assert "verified by what photo1.png shows, too" in notes["b", "photo2.png"]
     assert shows["b", "photo1.png"] == shows["b", "photo2.png"] == "yes"
     assert shows["c", "photo2.png"] == "no"
     assert [name for name, own in shows.items() if own == "not tried"] == [

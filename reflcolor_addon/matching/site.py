@@ -1,7 +1,7 @@
 """All scans and all photos of a site: each photo registered on each scan, and seeds made from what was verified."""
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from .published.hog_matching import described_photo, described_scan, hog_matches
 from .registration.alignment import Alignment
 from .registration.location import located
 from .registration.registration import ScanViews
+from .registration.resection import overlapping, placed_by
 from .scan_image import reflectance_image
 from .transfer.appearance import LEAST_CONFIDENCE, Appearance, described
 from .transfer.fallback import cautious_colors, mean_color
@@ -89,8 +90,9 @@ def verified(scans, photos, hand, settings, step, registered=None):
         found = located(scans, [place.views for place in places], hand, photo, counted, of_photo)
         for place, location in zip(places, found, strict=True):
             place.locations.append(location)
-            place.warnings += location.warnings
+    _place_by_others(places, photos, hand, step)
     for place in places:
+        place.warnings += [warning for location in place.locations for warning in location.warnings]
         _let_go_of_views(place)
     _let_go_of_images(photos)
     observed = _observed(places, photos, step)
@@ -100,6 +102,50 @@ def verified(scans, photos, hand, settings, step, registered=None):
     for place, own, colors in zip(places, seen, observed, strict=True):
         seeds = _with_unseen(place, own, appearance, photos, settings, step)
         yield seeds, place.locations, colors, place.warnings
+
+
+def _place_by_others(places, photos, hand, step):
+    """Place photos by what they have in common with photos that are verified; those help to place others in turn."""
+    scans, views = [place.scan for place in places], [place.views for place in places]
+    compared, progressed = set(), len(photos) > 1
+    while progressed:
+        progressed = False
+        for index, photo in enumerate(photos):
+            text = partial(step, 0.85)
+            found = {
+                number: registration
+                for number, place in enumerate(places)
+                if (registration := _by_others(place, photos, index, compared, text)) is not None
+            }
+            if not found:
+                continue
+            progressed = True
+            known = {number: place.locations[index].registration for number, place in enumerate(places)} | found
+            again = located(scans, views, hand, photo, text, lambda number, _, known=known: known[number])
+            for place, location in zip(places, again, strict=True):
+                place.locations[index] = location
+
+
+def _by_others(place, photos, index, compared, step):
+    """The registration of a photo on a scan by others that are verified there; None where it is no better.
+
+    ``compared`` holds what was compared already: scan's place, photo and other photo.
+    """
+    location = place.locations[index]
+    if location.beyond_doubt or not location.tested:
+        return None
+    others = [
+        number
+        for number, other in enumerate(place.locations)
+        if other.verified and number != index and (id(place), index, number) not in compared
+    ]
+    compared.update((id(place), index, number) for number in others)
+    if not others:
+        return None
+    near = overlapping(photos[index], [photos[number] for number in others])
+    known = [(photos[others[k]], place.locations[others[k]].registration.model) for k in near]
+    found = placed_by(place.views, photos[index], known, step)
+    return found if found is not None and found.preferable_to(location.registration) else None
 
 
 def _observed(places, photos, step):

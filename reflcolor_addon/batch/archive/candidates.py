@@ -37,7 +37,7 @@ def ranks(scores, moments=None, scanned=None, overlaps=None, second=False):
         When and where photos were taken, by their paths.
     scanned : dict of str to float, optional
         When items were scanned, in seconds since 1970, by their names.
-    overlaps : dict of str to set of str, optional
+    overlaps : dict of str to list of str, optional
         For each photo others that show partly the same.
     second : bool
         Whether these are scores of second looks.
@@ -61,7 +61,7 @@ def ranks(scores, moments=None, scanned=None, overlaps=None, second=False):
     moments = {photo: its for photo, its in (moments or {}).items() if photo in shares and its != Moment()}
     others, ranked = _Neighbors(moments), {}
     for photo in shares:
-        beside = (overlaps or {}).get(photo, set()).union(others.of(photo)) & shares.keys()
+        beside = {*others.of(photo), *(overlaps or {}).get(photo, ())} & shares.keys()
         own, moment = _supported(photo, shares, sorted(beside)), moments.get(photo)
         if moment is not None and moment.seconds is not None:
             own = {name: share * _of_its_day(moment.seconds, scanned.get(name)) for name, share in own.items()}

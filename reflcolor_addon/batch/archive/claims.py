@@ -28,6 +28,8 @@ class Claim:
         See `places.camera_place`.
     picture : str or None
         Where a picture of what the scan measured there is kept, see `BatchFolder.sketch`.
+    helpers : tuple of str
+        The paths of the photos that it was placed by; none if it was placed by itself.
     """
 
     item: str
@@ -43,9 +45,10 @@ class Claim:
     brightness: Cells | None = None
     camera: list | None = None
     picture: str | None = None
+    helpers: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, item, photo, pairs, by_hand=False, looked=0.0):
+    def of(cls, item, photo, pairs, by_hand=False, looked=0.0, helpers=()):
         """Return what the pairs of a photo with the scans of an item (see `matches.match_at`) claim."""
         best = max(pairs, key=lambda pair: (pair["verified"], pair["strength"]))
         return cls(
@@ -62,6 +65,7 @@ class Claim:
             brightness=best["brightness"] and Cells(*best["brightness"]),
             camera=best["camera"],
             picture=best["picture"],
+            helpers=helpers if best["by_others"] else (),
         )
 
 
@@ -79,12 +83,15 @@ class Verdict:
         Items on which it was not verified, but for which more speaks than for the refused ones.
     against : dict of str to tuple of str
         For refused items the photos that show the same part of them, but not the same there.
+    unhelped : dict of str to tuple of str
+        For refused items the photos that it was placed by, none of which shows them.
     """
 
     shown: tuple[str, ...] = ()
     refused: tuple[str, ...] = ()
     likelier: tuple[str, ...] = ()
     against: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    unhelped: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def warning(self, photo):
         """Return what a person should know of it; None where nothing contradicts itself."""
@@ -103,7 +110,14 @@ class Verdict:
             return Message(
                 "{photo}: seems to show {refused}, but does not fit {photos}, which shows the same part of it, so it "
                 "gives no colors; if that is wrong, write yes into pairs.csv for the scan that it shows",
-                photos=", ".join(dict.fromkeys(name for own in self.against.values() for name in own)),
+                photos=_names(self.against),
+                **values,
+            )
+        if self.unhelped:
+            return Message(
+                "{photo}: was placed on {refused} by what it has in common with {photos}, which turned out not to show "
+                "it, so it gives no colors; if that is wrong, write yes into pairs.csv for the scan that it shows",
+                photos=_names(self.unhelped),
                 **values,
             )
         if self.likelier:
@@ -133,9 +147,17 @@ class Verdict:
         elif item in self.against:
             text = "gives no colors: it does not fit {others}, which shows the same part of the scan"
             others = self.against[item]
+        elif item in self.unhelped:
+            text = "gives no colors: {others}, by which it was placed, turned out not to show the scan"
+            others = self.unhelped[item]
         elif self.likelier:
             text = "gives no colors: more speaks for {others}, which is another place, but not enough to be sure"
             others = self.likelier
         else:
             text = "seems to show {others}, too, which is another place, and none is clearly right; it gives no colors"
         return Message(text, others=", ".join(others))
+
+
+def _names(photos):
+    """The names of photos, given for items, one after the other."""
+    return ", ".join(dict.fromkeys(name for own in photos.values() for name in own))

@@ -36,15 +36,22 @@ def colorize_items(context, states, matched):
             for path in files_of_each(given, plan.name):
                 inputs += [path, *photos_named(path, plan.photos)]
         hashes = context.hashes(inputs)
+        placed_by = matched.placed_by(state.item.name, map(str, plan.photos)) if state.item.offered else {}
         task = Task(
             name=state.item.name,
-            request={"do": "run", "plan": as_document(plan), "folder": str(context.folder.root), "hashes": hashes},
+            request={
+                "do": "run",
+                "plan": as_document(plan),
+                "folder": str(context.folder.root),
+                "hashes": hashes,
+                "placed_by": placed_by,
+            },
             needs_blender=plan.needs_blender,
             memory=context.costs.memory(plan.scans, () if plan.seeds else plan.photos),
             cost=context.costs.seconds(plan.scans, 0 if plan.seeds else len(plan.photos)),
             log=context.folder.log(state.item.name),
         )
-        pieces.append((state, context.done.key(COLOR, plan, hashes), task))
+        pieces.append((state, context.done.key(COLOR, plan, hashes, placed_by), task))
     try:
         work_on(context, COLOR, pieces)
     except Cancelled:

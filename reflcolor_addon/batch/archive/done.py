@@ -22,7 +22,7 @@ class Done:
     def __init__(self, folder, fingerprints):
         self._folder, self._fingerprints = folder, fingerprints
 
-    def key(self, stage, plan, hashes):
+    def key(self, stage, plan, hashes, placed_by=None):
         """Return the key that identifies a piece of work: hashes of its inputs, its settings, and of the program.
 
         Parameters
@@ -32,10 +32,14 @@ class Done:
         hashes : dict of str to str
             Of every input, by its path; an empty text for one that could not be hashed. Then the key is empty, too, and
             nothing counts as done.
+        placed_by : dict of str to list of str, optional
+            See `Matched.placed_by`.
         """
         if not all(hashes.values()):
             return ""
-        return digest_of([program_digest(), stage, as_document(plan), sorted(hashes.items())])
+        return digest_of(
+            [program_digest(), stage, as_document(plan), sorted(hashes.items()), sorted((placed_by or {}).items())]
+        )
 
     def record(self, name, stage, key, outcome):
         """Record that something is done. It is called last, when the outputs exist."""

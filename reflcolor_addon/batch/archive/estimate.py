@@ -7,7 +7,7 @@ from ...messages import Message
 from ..plan import RENDER
 from .candidates import SECOND_LOOKS, are_few
 from .costs import SECONDS_PER_COMPARISON, SECONDS_PER_LOOK, SECONDS_PER_LOOK_OF_SCANS, SECONDS_PER_SECOND_LOOK
-from .overlaps import MOST_COMPARED
+from .overlap_stage import MOST_COMPARED
 from .progress_lines import duration
 from .tries import MOST_SCANS
 

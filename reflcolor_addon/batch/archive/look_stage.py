@@ -28,8 +28,8 @@ class Looks:
         When each item was scanned.
     few : bool
         Whether there are so few pairs that all of them may be matched.
-    overlaps : dict of str to set of str
-        For the path of each photo those of others that show partly the same, as far as they were compared.
+    overlaps : dict of str to list of str
+        For the path of each photo those of others that show partly the same, those first that agree best.
     first, ranks : dict of str to list of (str, float)
         See `candidates.ranks`; at the first look, and at the last.
     scores, strengths : dict of str to dict of str to float
@@ -45,7 +45,7 @@ class Looks:
     moments: dict[str, Moment]
     scanned: dict[str, float | None]
     few: bool
-    overlaps: dict[str, set[str]] = field(default_factory=dict)
+    overlaps: dict[str, list[str]] = field(default_factory=dict)
     first: dict[str, list] = field(default_factory=dict)
     ranks: dict[str, list] = field(default_factory=dict)
     scores: dict[str, dict[str, float]] = field(default_factory=dict)

@@ -27,6 +27,10 @@ class Matched:
         For each item and the path of each photo that was tried on it what `matches.match_at` found.
     verdicts : dict of str to Verdict
         For the path of each photo that is verified anywhere which items it shows.
+    helpers : dict of str to dict of str to list of str
+        For each item, by the path of each photo that was placed with the help of others, the paths of those.
+    hashes : dict of str to str
+        The hash of each photo, by its path.
     by_likeness : dict of str to list of str
         For items that could not be matched here the photos that look best.
     said : dict of (str, str) to bool
@@ -36,6 +40,8 @@ class Matched:
     """
 
     pairs: dict[str, dict[str, list]] = field(default_factory=lambda: defaultdict(dict))
+    helpers: dict[str, dict[str, list]] = field(default_factory=lambda: defaultdict(dict))
+    hashes: dict[str, str] = field(default_factory=dict)
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     by_likeness: dict[str, list[str]] = field(default_factory=dict)
     said: dict[tuple[str, str], bool] = field(default_factory=dict)
@@ -51,6 +57,11 @@ class Matched:
             # Guesses take their colors from photos that look like the scan, too.
             shown += [path for path in found if path not in self.verdicts]
         return shown
+
+    def placed_by(self, name, photos):
+        """Return the hashes of those that helped to place these photos on an item, by the photos' paths."""
+        helpers = self.helpers.get(name, {})
+        return {path: [self.hashes[other] for other in helpers[path]] for path in photos if path in helpers}
 
     def told(self, name):
         """Return what was found for an item, for its record: one dictionary for each scan and photo."""
@@ -94,9 +105,14 @@ def match_items(context, items, own, looks, known_pairs, matched):
             rounds.match(pairs)
     else:
         # A part of a batch does not wait for what the others find, but takes what they have found.
-        rounds.match(looks.by_item())
+        rounds.match(_by_themselves(looks.by_item()))
         rounds.recall_others()
     rounds.decide()
+
+
+def _by_themselves(pairs):
+    """Pairs (for each item its photos) that are matched without the help of other photos."""
+    return {name: dict.fromkeys(paths, ()) for name, paths in pairs.items()}
 
 
 class _Rounds:
@@ -110,7 +126,7 @@ class _Rounds:
             for (item, photo), shows in known_pairs.items()
             if item in self._items and photo in names
         }
-        self._found, matched.said = matched, self._said
+        self._found, matched.said, matched.hashes = matched, self._said, looks.hashes
         # What is wrong is told when the item is colorized.
         self._found.by_likeness |= {name: list(looks.photos) for name in looks.unseen}
         self._number = 0
@@ -123,7 +139,7 @@ class _Rounds:
         for (name, path), shows in self._said.items():
             if shows:
                 pairs[name].append(path)
-        return pairs
+        return _by_themselves(pairs)
 
     def recall_others(self):
         """Take what other parts of the batch have found for their items."""
@@ -136,19 +152,32 @@ class _Rounds:
             }
 
     def match(self, pairs):
-        """Match pairs that are not known yet, and keep what was found."""
+        """Match pairs that are not known yet, and keep what was found.
+
+        Parameters
+        ----------
+        pairs : dict of str to dict of str to sequence of str
+            For each item the paths of photos, and for each of these those of others that help to place it, or none.
+        """
         tasks, keys = [], {}
-        for name, paths in pairs.items():
-            item = self._items[name]
-            paths = [path for path in paths if path not in self._found.pairs[name] and self._may_show(name, path)]
+        for name, wanted in pairs.items():
+            item, found = self._items[name], self._found.pairs[name]
+            wanted = {
+                path: list(helpers)
+                for path, helpers in wanted.items()
+                if (helpers or path not in found) and self._may_show(name, path)
+            }
             if item.plan.settings.matching == "paper" or name in self._found.by_likeness:
-                self._found.by_likeness.setdefault(name, []).extend(paths)
+                self._found.by_likeness.setdefault(name, []).extend(path for path in wanted if path not in found)
                 continue
             keys[name] = self._key(item)
             known = self._recalled(keys[name])
-            hashes = self._looks.hashes
-            self._found.pairs[name] |= {path: known[hashes[path]] for path in paths if hashes[path] in known}
-            missing = [path for path in paths if path not in self._found.pairs[name]]
+            missing = {}
+            for path, helpers in wanted.items():
+                if (kept := known.get(self._kept_as(path, helpers))) is not None:
+                    self._take(name, path, helpers, kept)
+                else:
+                    missing[path] = helpers
             if missing and name in self._own:
                 tasks.append(self._task(item, missing))
         if not tasks:
@@ -158,7 +187,7 @@ class _Rounds:
         self._number += 1
 
         def done(task, outcome):
-            self._keep(task.name, keys[task.name], outcome["found"])
+            self._keep(task.name, keys[task.name], outcome["found"], task.request["helpers"])
 
         def failed(task):
             # What is wrong is told when the item is colorized.
@@ -169,14 +198,28 @@ class _Rounds:
     def _may_show(self, name, path):
         return self._said.get((name, path)) is not False and path not in self._context.problems
 
-    def _keep(self, name, key, found):
-        hashes, known = self._looks.hashes, self._recalled(key)
+    def _keep(self, name, key, found, helpers):
+        known = self._recalled(key)
         for path, problem in found["problems"].items():
             self._context.tell_problem(path, problem)
-        self._found.pairs[name] |= found["pairs"]
+        for path, pairs in found["pairs"].items():
+            self._take(name, path, helpers.get(path, []), pairs)
+            if kept_as := self._kept_as(path, helpers.get(path, [])):
+                known[kept_as] = pairs
         if key:
-            known |= {hashes[path]: pairs for path, pairs in found["pairs"].items() if hashes[path]}
             self._context.folder.remember(KIND, key, known)
+
+    def _kept_as(self, path, helpers):
+        """What is found for a photo, with these photos' help, is kept by this; by None if their hashes are unknown."""
+        hashes = [self._looks.hashes[other] for other in (path, *helpers)]
+        return " ".join(hashes) if all(hashes) else None
+
+    def _take(self, name, path, helpers, pairs):
+        """Take what was found for a pair; it replaces what was found without help."""
+        self._found.pairs[name][path] = pairs
+        if any(pair["by_others"] for pair in pairs):
+            self._found.helpers[name][path] = helpers
+        self._claims.pop((name, path), None)
 
     def _recalled(self, key):
         return (key and self._context.folder.recall(KIND, key)) or {}
@@ -188,7 +231,8 @@ class _Rounds:
         plan = item.plan
         return digest_of([program_digest(), plan.reading.as_dict(), plan.wanted, plan.name, list(hashes.values())])
 
-    def _task(self, item, paths):
+    def _task(self, item, helpers):
+        paths, others = list(helpers), {other for own in helpers.values() for other in own}
         plan = replace(
             item.plan,
             photos=tuple(map(Path, paths)),
@@ -199,7 +243,10 @@ class _Rounds:
             skip_unshown=True,
         )
         hashes = self._context.hashes(file for path in plan.scans for file in scan_files(path))
-        hashes |= {path: self._looks.hashes[path] for path in paths}
+        hashes |= {path: self._looks.hashes[path] for path in {*paths, *others}}
+        helpers = {path: own for path, own in helpers.items() if own}
+        placed_by = self._found.placed_by(item.name, others)
+        placed_by |= {path: [self._looks.hashes[other] for other in own] for path, own in helpers.items()}
         largest = max(plan.photos, key=lambda path: self._context.costs.photos.get(path, 0))
         return Task(
             name=item.name,
@@ -208,6 +255,8 @@ class _Rounds:
                 "plan": as_document(plan),
                 "folder": str(self._context.folder.root),
                 "hashes": hashes,
+                "helpers": helpers,
+                "placed_by": placed_by,
             },
             memory=self._context.costs.memory(plan.scans, (largest,)),
             cost=self._context.costs.seconds(plan.scans, len(paths)),
@@ -251,7 +300,8 @@ class _Rounds:
         if (name, path) not in self._claims:
             by_hand = self._said.get((name, path), False)
             looked = self._looks.strengths.get(name, {}).get(path, 0.0)
-            self._claims[name, path] = Claim.of(name, self._looks.photos[path], pairs, by_hand, looked)
+            helpers = tuple(self._found.helpers[name].get(path, ()))
+            self._claims[name, path] = Claim.of(name, self._looks.photos[path], pairs, by_hand, looked, helpers)
         return self._claims[name, path]
 
     def decide(self):

@@ -1,5 +1,6 @@
 """Matches photos with the scans of one item of a batch, without coloring anything."""
 
+from contextlib import suppress
 from dataclasses import astuple
 from functools import partial
 
@@ -7,6 +8,7 @@ from ...errors import ReflcolorError
 from ...matching.opened_photos import opened_photos
 from ...matching.registration.location import located
 from ...matching.registration.registration import ScanViews
+from ...matching.registration.resection import placed_by
 from ...messages import without_file
 from ..check import check_plan
 from ..read import read_jobs
@@ -18,23 +20,26 @@ from .places import brightness_seen, camera_place, pixels_seen, reflectance_seen
 _READING = 0.1
 
 
-def match_at(plan, session):
-    """Match photos with the scans of an item, each by itself; nothing is written.
+def match_at(plan, session, helpers=None):
+    """Match photos with the scans of an item, each by itself or by others; nothing is written.
 
     Parameters
     ----------
     plan : Plan
         Of the item, with the photos to match.
     session : Session
-        Whose ``registrations`` keep what is found.
+        Whose ``registrations`` keep what is found, and know what was found for the helpers.
+    helpers : dict of str to list of str, optional
+        For photos that overlap others which were found to show the item the paths of those, the best first. Such a
+        photo is placed by what it has in common with them, and by itself only where that fails.
 
     Returns
     -------
     dict
         ``pairs``: for the path of each photo a list of what was found on each scan (``scan``, its label; ``verified``,
         ``tested``, ``evidence``, ``strength``, ``repeats``, ``note``; ``reflectance``, ``brightness`` and ``camera``,
-        see `places`, where a camera was found; ``picture``, see `partners`, where it was verified); ``problems``: for
-        the path of each photo that cannot be used why.
+        see `places`, where a camera was found; ``picture``, see `partners`, where it was verified; ``by_others``,
+        whether it was placed by its helpers); ``problems``: for the path of each photo that cannot be used why.
     """
     session.span = 0.0, _READING
     jobs = read_jobs(plan, check_plan(plan), session, {})
@@ -45,7 +50,7 @@ def match_at(plan, session):
     jobs = [job for job, scan in zip(jobs, scans, strict=True) if scan.valid.any()]
     scans = [scan for scan in scans if scan.valid.any()]
     views, nobody = [ScanViews(scan) for scan in scans], [None] * len(scans)
-    pairs, problems = {}, {}
+    pairs, problems, helpers = {}, {}, helpers or {}
     for number, path in enumerate(plan.photos):
 
         def step(text, number=number):
@@ -57,7 +62,11 @@ def match_at(plan, session):
             problems[str(path)] = without_file(error.message)
             continue
 
-        def registered(scan, register, path=path):
+        def registered(scan, register, path=path, photo=photo, step=step):
+            if own := helpers.get(str(path)):
+                session.registrations.place(
+                    jobs[scan], path, lambda: _by_helpers(session, jobs[scan], views[scan], photo, own, step)
+                )
             return session.registrations(jobs[scan], path, register)
 
         found = located(scans, views, nobody, photo, step, registered)
@@ -66,6 +75,18 @@ def match_at(plan, session):
             for job, own, location in zip(jobs, views, found, strict=True)
         ]
     return {"pairs": pairs, "problems": problems}
+
+
+def _by_helpers(session, job, views, photo, paths, step):
+    """The `Registration` of a photo by others that overlap it; None where they do not place it."""
+    known = []
+    for path in paths:
+        registration = session.registrations.known(job, path)
+        if registration is not None and registration.accepted:
+            # One that was deleted meanwhile helps no more.
+            with suppress(ReflcolorError):
+                known.append((opened_photos([path])[0], registration.model))
+    return placed_by(views, photo, known, step)
 
 
 def _told(job, views, location, photo, keep):
@@ -89,4 +110,5 @@ def _told(job, views, location, photo, keep):
         "brightness": brightness,
         "camera": camera,
         "picture": picture,
+        "by_others": registration.beside is not None,
     }

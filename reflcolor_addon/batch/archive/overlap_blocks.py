@@ -4,9 +4,9 @@ from pathlib import Path
 
 from ...errors import Cancelled, ReflcolorError
 from ...matching.photo_image import PhotoImage
+from ...matching.registration.overlaps import LEAST_AGREEMENT, Described, agreement
 from .fingerprints import digest_of, program_digest
 from .folder import BatchFolder
-from .overlaps import LEAST_AGREEMENT, Described, agreement
 from .sketches import sketch_of
 
 KIND = "looks"

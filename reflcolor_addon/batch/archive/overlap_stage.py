@@ -2,9 +2,11 @@
 
 from collections import defaultdict
 
-from .overlaps import MOST_COMPARED
 from .workers import Task
 
+# With how many of those that come before it, and after it, each photo is compared at most, for each scan: then it takes
+# no more than about a third of what first looks take, however many photos there are.
+MOST_COMPARED = 10
 # Photos are described once for each block that theirs is compared with; that takes as long as comparing each with 12.
 _LARGEST_BLOCK, _DESCRIBING = 100, 12
 # So many of those that overlap a photo tell all there is to know: what is found for others is passed on by these.
@@ -24,8 +26,8 @@ def overlapping(context, looks, scans):
 
     Returns
     -------
-    dict of str to set of str
-        For the path of each photo the paths of others, of those that agree best.
+    dict of str to list of str
+        For the path of each photo the paths of others, those that agree best.
     """
     paths = [path for path in looks.photos if looks.hashes[path] and path not in context.problems]
     size = max(1, min(_LARGEST_BLOCK, -(-len(paths) // 2)))
@@ -45,7 +47,7 @@ def overlapping(context, looks, scans):
 
     # Without it, the order in which pairs are tried is not as good; nothing else is lost.
     context.work_again(tasks, compared, lambda task: None, "Compared groups of photos")
-    return {photo: {other for _, other in sorted(own)[:_MOST_OVERLAPS]} for photo, own in found.items()}
+    return {photo: [other for _, other in sorted(own)[:_MOST_OVERLAPS]] for photo, own in found.items()}
 
 
 def _task(context, number, later, blocks, hashes):

@@ -14,6 +14,8 @@ _ANOTHER, _WORTH = 0.2, 0.05
 # Which share of all pairs is matched at most, beyond the first round and scans that another photo shows to be of one
 # place.
 _MOST_PAIRS = 0.105
+# How many photos help to place another one.
+_MOST_HELPERS = 3
 
 
 class Tries:
@@ -27,14 +29,14 @@ class Tries:
         The same by the first look alone.
     few : bool
         Whether there are so few pairs that a photo which is not placed may be tried on all scans.
-    overlaps : dict of str to set of str, optional
-        For each photo others that show partly the same.
+    overlaps : dict of str to list of str, optional
+        For each photo others that show partly the same, those first that agree best.
     """
 
     def __init__(self, ranks, first, few=False, overlaps=None):
         count = sum(map(len, ranks.values()))
         self._ranks, self._tried, self._rounds = ranks, {photo: set() for photo in ranks}, 0
-        self._overlaps = overlaps or {}
+        self._overlaps, self._helpers = overlaps or {}, {}
         self._first = {photo: own[0][0] for photo, own in first.items() if own}
         self._most = count if few else MOST_SCANS
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
@@ -53,36 +55,62 @@ class Tries:
 
         Returns
         -------
-        dict of str to list of str
-            For each item its photos.
+        dict of str to dict of str to tuple of str
+            For each item its photos, and for each of these the photos that help to place it, if there are any.
         """
-        together = set()
+        pairs = defaultdict(dict)
         if self._rounds == 0:
             chosen = [(photo, name) for photo, own in self._ranks.items() for name, _ in own[: self._at_once]]
+            size, free = len(chosen), set()
         else:
-            placed, found, beside = verdicts.placed(), verdicts.by_photo(), verdicts.beside()
-            chances = []
-            for photo in self._ranks:
-                shown = found[photo].shown if photo in found else ()
-                # What another photo of the same place shows, this one probably shows, too.
-                others = [found[other].shown for other in self._overlaps.get(photo, ()) if other in found]
-                seen = {name for own in (shown, *others) for name in own}
-                neighbors = seen.union(*(beside[item] for item in seen))
-                together |= {(photo, name) for name in neighbors}
-                neighbors |= set(partners.get(photo, ()))
-                chances += [
-                    (-chance, photo, name) for chance, name in self._of(photo, photo in placed, shown, neighbors)
-                ]
-            chosen = [(photo, name) for _, photo, name in sorted(chances)]
-        self._rounds += 1
-        pairs, size = defaultdict(list), len(chosen) if self._rounds == 1 else self._size
-        for photo, name in chosen:
-            free = (photo, name) in together
-            if size > 0 and (free or self._left > 0):
-                size, self._left = size - 1, self._left - (not free)
+            helped = self._helped(verdicts)
+            for (photo, name), helpers in helped.items():
                 self._tried[photo].add(name)
-                pairs[name].append(photo)
+                pairs[name][photo] = helpers
+            chosen, free = self._by_themselves(verdicts, partners)
+            size = self._size
+        self._rounds += 1
+        for photo, name in chosen:
+            if size > 0 and ((photo, name) in free or self._left > 0):
+                size, self._left = size - 1, self._left - ((photo, name) not in free)
+                self._tried[photo].add(name)
+                pairs[name][photo] = ()
         return dict(pairs)
+
+    def _helped(self, verdicts):
+        """Pairs (photo, item), and for each the photos that help: they overlap it, and were found to show the item."""
+        shown = {photo: set(verdict.shown) for photo, verdict in verdicts.by_photo().items()}
+        certain, helped = verdicts.certain(), {}
+        for photo in self._ranks:
+            others = [other for other in self._overlaps.get(photo, ()) if other in shown]
+            for name in sorted(set().union(*(shown[other] for other in others))):
+                helpers, before = [other for other in others if name in shown[other]], self._helpers.get((photo, name))
+                if name in shown.get(photo, ()):
+                    # What was placed with help does not help to place better what was placed without.
+                    helpers = [other for other in helpers if (other, name) not in self._helpers]
+                    if (photo, name) in certain or before:
+                        continue
+                helpers = helpers[:_MOST_HELPERS]
+                if not (before or set()).issuperset(helpers):
+                    helped[photo, name] = tuple(helpers)
+        for pair, helpers in helped.items():
+            self._helpers.setdefault(pair, set()).update(helpers)
+        return helped
+
+    def _by_themselves(self, verdicts, partners):
+        """Pairs (photo, item), the likeliest first, and the set of those that do not count."""
+        placed, found, beside = verdicts.placed(), verdicts.by_photo(), verdicts.beside()
+        chances, free = [], set()
+        for photo in self._ranks:
+            shown = found[photo].shown if photo in found else ()
+            # What another photo of the same place shows, this one probably shows, too.
+            others = [found[other].shown for other in self._overlaps.get(photo, ()) if other in found]
+            seen = {name for own in (shown, *others) for name in own}
+            neighbors = seen.union(*(beside[item] for item in seen))
+            free |= {(photo, name) for name in neighbors}
+            neighbors |= set(partners.get(photo, ()))
+            chances += [(-chance, photo, name) for chance, name in self._of(photo, photo in placed, shown, neighbors)]
+        return [(photo, name) for _, photo, name in sorted(chances)], free
 
     def _of(self, photo, placed, shown, neighbors):
         """How likely it is that a photo shows each of the scans that it may be tried on: (chance, item)."""

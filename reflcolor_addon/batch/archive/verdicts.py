@@ -23,7 +23,7 @@ class Verdicts:
         For the path of each photo those on all items that it was matched with.
     known : dict, optional
         Where comparisons of claims are kept from one time to the next.
-    overlaps : dict of str to set of str, optional
+    overlaps : dict of str to list of str, optional
         For the path of each photo those of others that show partly the same.
     partners : dict of str to list of str, optional
         For the `Claim.picture` of what a scan measured the items that are probably of the same place.
@@ -40,7 +40,7 @@ class Verdicts:
         self._supported, self._of_one_place = set(), set()
         self._compare_photos()
         self._compare_places()
-        self._shown, self._refused = set(), set()
+        self._unhelped = set()
         self._decide()
 
     def by_photo(self):
@@ -61,17 +61,25 @@ class Verdicts:
                 refused=_names(refused),
                 likelier=tuple(dict.fromkeys(likelier)),
                 against={item: photos for item, photos in against.items() if photos},
+                unhelped={
+                    claim.item: tuple(other.photo for path in claim.helpers for other in self._claims.get(path, ())[:1])
+                    for claim in refused
+                    if claim in self._unhelped
+                },
             )
         return found
 
     def placed(self):
         """Return the paths of photos that certainly show what they were verified on."""
-        certain = {
-            claim
+        return {path for path, _ in self.certain()}
+
+    def certain(self):
+        """Return pairs (path, item) of photos and what they certainly show."""
+        return {
+            (self._path_of[claim], claim.item)
             for claim in self._shown
             if claim.strength >= _PLACED and (claim.evidence >= _SURE or claim in self._supported)
         }
-        return {path for path, own in self._claims.items() if certain.intersection(own)}
 
     def beside(self):
         """Return for each item those that photos say show the same place."""
@@ -118,7 +126,22 @@ class Verdicts:
         return self._known[one, other]
 
     def _decide(self):
+        """Take claims; what was placed with the help of photos that are refused there is refused, too."""
+        while True:
+            self._take()
+            shown = {(self._path_of[claim], claim.item) for claim in self._shown}
+            unhelped = {
+                claim
+                for claim in self._shown
+                if claim.helpers and not claim.by_hand and not any((path, claim.item) in shown for path in claim.helpers)
+            }
+            if not unhelped:
+                break
+            self._unhelped |= unhelped
+
+    def _take(self):
         """Take claims, that for which most speaks first, unless they contradict one that was taken."""
+        self._shown, self._refused = set(), set()
         for claim in sorted(self._verified, key=self._order):
             open_ones = [other for other in self._rivals[claim] if not self._is_out(other)]
             if claim.by_hand or (not self._is_out(claim) and self._is_clear(claim, open_ones)):
@@ -132,7 +155,7 @@ class Verdicts:
     def _is_out(self, claim):
         """Whether a claim contradicts one that was taken, or more speaks for another place."""
         taken = any(other in self._shown for other in self._rivals[claim])
-        return not claim.by_hand and (taken or bool(self._likelier(claim)))
+        return not claim.by_hand and (taken or claim in self._unhelped or bool(self._likelier(claim)))
 
     def _is_clear(self, claim, rivals):
         return all(self._weights[claim] >= CLEARLY * self._weights[other] for other in rivals)

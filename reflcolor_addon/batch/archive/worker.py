@@ -112,7 +112,7 @@ class _Worker:
         """Match photos with the scans of an item."""
         lines, plan, found = [], from_document(request["plan"]), {}
         session = self._session(request, plan, lines)
-        outcome = self._outcome(lambda: found.update(match_at(plan, session)))
+        outcome = self._outcome(lambda: found.update(match_at(plan, session, request["helpers"])))
         pairs = max(1, sum(map(len, found.get("pairs", {}).values())))
         return outcome | {"found": found | {"worked": 1 - min(session.registrations.recalled / pairs, 1.0)}}
 
@@ -123,7 +123,9 @@ class _Worker:
             show=self.show,
             cancelled=self.cancelled,
             blender=self._outer.blender,
-            registrations=Registrations(BatchFolder(Path(request["folder"])), request["hashes"], plan.reading),
+            registrations=Registrations(
+                BatchFolder(Path(request["folder"])), request["hashes"], plan.reading, request.get("placed_by")
+            ),
         )
 
     def look(self, request):

@@ -45,7 +45,7 @@ class ScanPoints:
             step()
             if variant not in self._found:
                 self._found[variant] = described(self._image, variant)
-            own, (other, other_shape) = self._found[variant], _of_photo(photo, variant)
+            own, (other, other_shape) = self._found[variant], of_photo(photo, variant)
             to_grid = np.diag([rows_columns[1] / shape[1], rows_columns[0] / shape[0], 1.0])
             to_photo = np.diag([photo.width / other_shape[1], photo.height / other_shape[0], 1.0])
             points = matches(own, other)
@@ -64,8 +64,8 @@ class ScanPoints:
                     yield GridHomography(matrix / matrix[2, 2], rows_columns, photo.width, photo.height)
 
 
-def _of_photo(photo, variant):
-    """A photo's features of a variant, and the shape of the image that they are counted in."""
+def of_photo(photo, variant="contrast"):
+    """Return a photo's features of a variant (see `described`), and the shape of the image that they are counted in."""
     variant = "contrast" if variant == "inverted" else variant
 
     def its_own():

@@ -136,7 +136,10 @@ def _judged(scan, photo, registration):
     """The location that was found without a person's help."""
     said = registration.evidence.said
     if registration.accepted:
-        return Location(registration, True, registration.model.kind, Message("verified: {evidence}", evidence=said))
+        note = Message("verified: {evidence}", evidence=said)
+        if registration.beside is not None:
+            note = Message("verified by what {other} shows, too: {evidence}", other=registration.beside, evidence=said)
+        return Location(registration, True, registration.model.kind, note)
     if registration.untestable:
         warning = "{scan}: {photo} cannot be tested ({reason}); pick four to six pairs by hand to place it"
         note, reason = "cannot be tested: {reason}", registration.untestable

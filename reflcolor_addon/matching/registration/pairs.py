@@ -5,7 +5,8 @@ import numpy as np
 from ..models import Camera
 
 LEAST_PAIRS = 4
-_FOCALS = (0.5, 0.65, 0.85, 1.1, 1.45, 1.9, 2.5)
+FOCALS = (0.5, 0.65, 0.85, 1.1, 1.45, 1.9, 2.5)
+"""Focal lengths that are tried, in lengths of the photo's longer side."""
 _USUAL_FOCAL = 0.85
 _FOCAL_DOUBT = 2.0
 # A person clicks to about a hundredth of the photo; a pair that is off by more than three of these is a slip.
@@ -57,7 +58,7 @@ def _fitted(points, xy, photo):
 
     longer = max(photo.width, photo.height)
     best, best_cost, best_error = None, np.inf, np.inf
-    for focal in _FOCALS:
+    for focal in FOCALS:
         matrix = np.array([[focal * longer, 0, photo.width / 2], [0, focal * longer, photo.height / 2], [0, 0, 1.0]])
         for method in (cv2.SOLVEPNP_SQPNP, cv2.SOLVEPNP_EPNP):
             try:
@@ -67,7 +68,7 @@ def _fitted(points, xy, photo):
             for turn, shift in zip(turns, shifts, strict=True):
                 rotation = cv2.Rodrigues(turn)[0]
                 start = Camera(rotation, -rotation.T @ shift[:, 0], focal * longer, 0.0, photo.width, photo.height)
-                camera, cost, error = _polished(start, points, xy)
+                camera, cost, error = polished(start, points, xy)
                 cost += _BACK_DOUBT * _backs(camera, points)
                 if cost < best_cost:
                     best, best_cost, best_error = camera, cost, error
@@ -81,7 +82,7 @@ def _backs(camera, points):
     return float(np.maximum((way * points).sum(axis=1) / np.maximum(lengths, 1e-12), 0).mean())
 
 
-def _polished(camera, points, xy):
+def polished(camera, points, xy):
     from scipy.optimize import least_squares
 
     longer = max(camera.width, camera.height)

@@ -58,12 +58,15 @@ class Registration:
 
     untestable : str or None
         Why it cannot be decided whether the photo shows the scan.
+    beside : str or None
+        The name of another photo, if the model follows from what both show.
     """
 
     model: object
     evidence: Evidence
     found_by: str
     untestable: str | None = None
+    beside: str | None = None
 
     @property
     def accepted(self):
@@ -95,6 +98,10 @@ class Registration:
     def better_than(self, other):
         """Whether there is more evidence for it than for another one."""
         return self.model is not None and (other.model is None or self.evidence.rank > other.evidence.rank)
+
+    def preferable_to(self, other):
+        """Whether it is to be used instead of another one."""
+        return self.accepted and (not other.accepted or self.better_than(other))
 
     @classmethod
     def nothing(cls, found_by="nothing", untestable=None):
@@ -232,8 +239,23 @@ def confirmed(views, photo, model, pairs=None):
     Nothing was searched, so a wrong model hardly ever stands out by chance, and the least evidence is enough. With
     `HandPairs` only a camera that still fits them is taken.
     """
+    return _near(views, photo, model, "known", known_before, pairs).beyond_chance(views, photo)
+
+
+def derived(views, photo, model, beside):
+    """Return the `Registration` of a camera that follows from another photo's, of the name ``beside``.
+
+    That one was searched for, and what both show fits wherever it does: so this needs the evidence of a camera that was
+    searched for, too.
+    """
+    found = _near(views, photo, model, "overlap", searched).beyond_chance(views, photo).alone(views, photo)
+    return replace(found, beside=beside)
+
+
+def _near(views, photo, model, found_by, needing, pairs=None):
+    """The best registration near a model that is known roughly."""
     rng = np.random.default_rng(0)
-    best = Registration.nothing("known")
+    best = Registration.nothing(found_by)
     near, _ = refined(views, photo, model, [(*MIDDLE, 8, 1.0, 0.5)], free=model.POSE, rng=rng, pairs=pairs)
     for start in (model, near):
         if start is None:
@@ -241,10 +263,10 @@ def confirmed(views, photo, model, pairs=None):
         candidate, proof = finely(views, photo, start, rng, pairs=pairs)
         if pairs is not None and candidate is not None and pairs.off(candidate) > _FITTING * max(pairs.off(model), 1):
             continue
-        found = Registration(candidate, known_before(proof), "known")
+        found = Registration(candidate, needing(proof), found_by)
         if found.better_than(best):
             best = found
-    return best.beyond_chance(views, photo)
+    return best
 
 
 def _by_features(views, photo, step):

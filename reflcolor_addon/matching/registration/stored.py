@@ -17,6 +17,7 @@ def as_document(registration):
         "evidence": asdict(registration.evidence),
         "found_by": registration.found_by,
         "untestable": registration.untestable,
+        "beside": registration.beside,
     }
 
 
@@ -34,7 +35,7 @@ def from_document(document):
         numbers = [value for value in asdict(evidence).values() if isinstance(value, float)]
         if not all(map(math.isfinite, numbers)):
             raise ValueError("evidence holds a number that is not finite")
-        return Registration(model, evidence, document["found_by"], document["untestable"])
+        return Registration(model, evidence, document["found_by"], document["untestable"], document["beside"])
     except (KeyError, TypeError) as error:
         raise ValueError(f"no registration: {error}") from error
 

@@ -1,4 +1,4 @@
-"""Which photos of a batch overlap, that is, show partly the same thing: where one was found, the others belong, too.
+"""Which photos overlap, that is, show partly the same thing: where one was found, the others belong, too.
 
 Local features that match give a homography from one photo to the other, right for whatever is flat in them. Where
 things repeat, as tiles and windows do, features match between photos of different places as well; but then what lies
@@ -9,11 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...matching.registration.features import described, is_sane, matches, sized
+from .features import described, is_sane, matches, sized
 
-# With how many of those that come before it, and after it, each photo is compared at most, for each scan: then it takes
-# no more than about a third of what first looks take, however many photos there are.
-MOST_COMPARED = 10
 _SIDE, _MOST_POINTS = 480, 500
 _RATIO, _NEAR_PX, _MOST_TRIES = 0.85, 4.0, 5000
 # What photos of different rooms have is printed by ``python -m benchmarks.looks``.

@@ -1,0 +1,150 @@
+"""Where a photo was taken, from others that show partly the same and whose models are known (resection).
+
+What two photos show has places on the scan, by the known model. So many pairs of a place and a point of the photo give
+its camera, as pairs do that a person picks. It has to pass the same test as a camera that was searched for: it is no
+better than the model it comes from.
+"""
+
+import numpy as np
+
+from ...messages import Message
+from ..models import Camera, within
+from .features import matches, of_photo
+from .overlaps import LEAST_AGREEMENT, Described, agreement
+from .pairs import FOCALS, polished
+from .registration import derived
+
+LEAST_PLACES = 16
+"""So many places must agree about a camera."""
+_RATIO = 0.85
+# How far off a place may be, as a share of the photo's longer side, and how often a camera is sought.
+_NEAR_SHARE, _MOST_TRIES = 0.01, 300
+# A point of the photo has the place of the scan's pixels that are seen around it, if these are about as far away.
+_AROUND, _SAME_DEPTH, _REACH = 4, 0.05, 2.0
+# With so many other photos it is tried, with those first that agree best.
+_MOST_OTHERS = 3
+
+
+def overlapping(photo, others):
+    """Return which of other photos overlap a photo, as their indices, those first that agree best.
+
+    Parameters
+    ----------
+    photo : PhotoImage
+    others : sequence of PhotoImage
+    """
+    own = _described(photo)
+    agreed = [(-agreement(_described(other), own), index) for index, other in enumerate(others)]
+    return [index for disagreed, index in sorted(agreed) if -disagreed >= LEAST_AGREEMENT]
+
+
+def placed_by(views, photo, others, step=lambda text: None):
+    """Return the `Registration` of a photo by what it has in common with others.
+
+    Parameters
+    ----------
+    views : ScanViews
+    photo : PhotoImage
+    others : sequence of (PhotoImage, Camera or GridHomography)
+        That overlap it, the best first, with their models on the scan.
+    step : callable
+        Called with a text before each stage; may raise to end the work.
+
+    Returns
+    -------
+    Registration or None
+        Of the first camera that passes the test; None where there is none.
+    """
+    for other, model in others[:_MOST_OTHERS]:
+        step(Message("{photo}: comparing with {other}", photo=photo.name, other=other.name))
+        camera, _ = resected(views.scan, photo, other, model)
+        if camera is not None:
+            step(Message("{photo}: trying its place by {other}", photo=photo.name, other=other.name))
+            found = derived(views, photo, camera, other.name)
+            if found.accepted:
+                return found
+    return None
+
+
+def resected(scan, photo, other, model):
+    """Return the camera of a photo from what it has in common with another one.
+
+    Parameters
+    ----------
+    scan : Scan
+    photo : PhotoImage
+        Whose camera is sought.
+    other : PhotoImage
+    model : Camera or GridHomography
+        Of ``other``, on the scan.
+
+    Returns
+    -------
+    camera : Camera or None
+        None where they have too little in common.
+    count : int
+        How many places agree about it.
+    """
+    nothing = None, 0
+    (own_features, own_shape), (other_features, other_shape) = of_photo(photo), of_photo(other)
+    points = matches(own_features, other_features, _RATIO)
+    if points is None:
+        return nothing
+    xy, other_xy = (
+        at * [whole.width / shape[1], whole.height / shape[0]]
+        for at, whole, shape in zip(points[:2], (photo, other), (own_shape, other_shape), strict=True)
+    )
+    places, known = _places_at(scan, model, other_xy)
+    if known.sum() < LEAST_PLACES:
+        return nothing
+    places, xy = places[known], xy[known]
+    kept, start = _agreeing(places, xy, photo)
+    if len(kept) < LEAST_PLACES:
+        return nothing
+    return polished(start, places[kept], xy[kept])[0], len(kept)
+
+
+def _described(photo):
+    return photo.once("overlap", lambda: Described.of(photo))
+
+
+def _places_at(scan, model, xy):
+    """Places (N, 3), meters in the scanner frame, of what a photo shows at points (N, 2) of it, and (N,) bool: where
+    that is known."""
+    from scipy.spatial import cKDTree
+
+    rows, cols = np.nonzero(scan.valid)
+    seen, depth = model.project(model.sites_of(scan, rows, cols))
+    inside = (depth > 0) & within(model, seen)
+    points, seen = scan.points[rows, cols][inside], seen[inside]
+    if len(points) < _AROUND:
+        return np.zeros((len(xy), 3)), np.zeros(len(xy), bool)
+    tree = cKDTree(seen)
+    away, around = tree.query(xy, _AROUND)
+    # About how far apart neighboring pixels of the scan are in the photo.
+    usual = float(np.median(tree.query(seen[:: max(1, len(seen) // 1000)], 2)[0][:, 1]))
+    distance = np.linalg.norm(points[around] - (model.center if model.kind == "pose" else 0.0), axis=2)
+    known = (away[:, -1] <= _REACH * usual + 1) & (np.ptp(distance, axis=1) <= _SAME_DEPTH * distance.min(axis=1))
+    weight = 1 / np.maximum(away, 1e-3)
+    return (points[around] * weight[..., None]).sum(axis=1) / weight.sum(axis=1)[:, None], known
+
+
+def _agreeing(places, xy, photo):
+    """Which pairs agree about a camera, of all focal lengths that photos may have, and that camera, roughly."""
+    import cv2
+
+    longer = max(photo.width, photo.height)
+    limits = {"iterationsCount": _MOST_TRIES, "reprojectionError": _NEAR_SHARE * longer}
+    kept, best = np.zeros(0, int), None
+    for focal in FOCALS:
+        matrix = np.array([[focal * longer, 0, photo.width / 2], [0, focal * longer, photo.height / 2], [0, 0, 1.0]])
+        cv2.setRNGSeed(0)
+        try:
+            found, turn, shift, fit = cv2.solvePnPRansac(places, xy, matrix, None, flags=cv2.SOLVEPNP_SQPNP, **limits)
+        except cv2.error:
+            continue  # the places lie nearly in a line
+        if found and fit is not None and len(fit) > len(kept):
+            turn = cv2.Rodrigues(turn)[0]
+            kept = fit[:, 0]
+            best = Camera(turn, -turn.T @ shift[:, 0], focal * longer, 0.0, photo.width, photo.height)
+    return kept, best
