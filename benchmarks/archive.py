@@ -42,7 +42,7 @@ from reflcolor_addon.settings import Settings
 
 SEGMENTS = 150
 # A camera farther off, as a share of the photo's width, is wrong.
-_MOST_OFF = 0.05
+MOST_OFF = 0.05
 _ASIDE = (0.4, -0.3)
 
 
@@ -82,9 +82,9 @@ def main():
     )
     matched_pairs = sum(row["shows"] != "not tried" for row in table)
     away = {pair: own["off"] for pair, own in zip(pairs, true, strict=True) if own["verified"]}
-    verified = {pair for pair, off in away.items() if off <= _MOST_OFF}
+    verified = {pair for pair, off in away.items() if off <= MOST_OFF}
     off = {pair: away_of(folder, *pair, rooms[pair[1]], arguments.scans) for pair in found.intersection(pairs)}
-    correct = {pair for pair, away in off.items() if away <= _MOST_OFF}
+    correct = {pair for pair, away in off.items() if away <= MOST_OFF}
     lost, false = sorted(verified - found), sorted(found - correct)
     count = arguments.scans * arguments.photos
     of_true, of_wrong = (float(np.mean([own["processor"] for own in some])) for some in (true, wrong))
@@ -193,7 +193,7 @@ def matched(folder, scan, photo, room=None, scans=0):
     matching = match_photos(own, [folder / f"{photo}.png"], Settings(slic_segments=SEGMENTS))
     found = {"verified": matching.photos[0].verified, "processor": processor_time() - before}
     if room is not None and found["verified"]:
-        found["off"] = _off(own, matching.photos[0].model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
+        found["off"] = off_by(own, matching.photos[0].model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
     return found
 
 
@@ -205,10 +205,10 @@ def away_of(folder, scan, photo, room, scans):
             registration = from_document(kept["registration"])
             found = registration if registration.preferable_to(found) else found
     (own,) = read_scans(folder / f"{scan}.ptx")
-    return _off(own, found.model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
+    return off_by(own, found.model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
 
 
-def _off(scan, found, room, photo, place):
+def off_by(scan, found, room, photo, place):
     """How far a camera puts what a photo of a room shows from where it is, the median as a share of its width."""
     right = room.camera(photo, found.width, found.height, place)
     rows, cols = np.nonzero(scan.valid)

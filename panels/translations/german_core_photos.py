@@ -94,6 +94,8 @@ _MATCHING = {
     "{photo}: looking for what repeats": "{photo}: Wiederholungen werden gesucht",
     "{photo}: trying its place on {other}": "{photo}: seine Lage auf {other} wird ausprobiert",
     "{photo}: trying its place in the file": "{photo}: seine Lage in der Datei wird ausprobiert",
+    "{photo}: comparing with {other}": "{photo}: wird mit {other} verglichen",
+    "{photo}: trying its place by {other}": "{photo}: seine Lage nach {other} wird ausprobiert",
     "{photo}: is black and white, it gives no colors": "{photo}: ist schwarzweiß, es gibt keine Farben",
     "Opening the photos": "Fotos werden geöffnet",
     "Matched": "Zugeordnet",
@@ -116,6 +118,7 @@ _MATCHING = {
         "zeigt {other}; zu wenig von {scan}, um Farben daraus zu nehmen"
     ),
     "verified: {evidence}": "bestätigt: {evidence}",
+    "verified by what {other} shows, too: {evidence}": "bestätigt durch das, was auch {other} zeigt: {evidence}",
     "cannot be tested: {reason}": "nicht prüfbar: {reason}",
     "not verified: {reason}": "nicht bestätigt: {reason}",
     "{scan}: {photo} cannot be tested ({reason}); pick four to six pairs by hand to place it": (

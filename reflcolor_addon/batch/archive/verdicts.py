@@ -133,7 +133,9 @@ class Verdicts:
             unhelped = {
                 claim
                 for claim in self._shown
-                if claim.helpers and not claim.by_hand and not any((path, claim.item) in shown for path in claim.helpers)
+                if claim.helpers
+                and not claim.by_hand
+                and shown.isdisjoint((path, claim.item) for path in claim.helpers)
             }
             if not unhelped:
                 break

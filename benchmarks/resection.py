@@ -1,0 +1,109 @@
+"""How well photos are placed by others that overlap them: python -m benchmarks.resection SEED ...
+
+On each scan of a simulated archive (benchmarks/archive.py) its photos are matched, each by itself. Then each is placed
+by every other one that overlaps it and was verified. Printed for each archive, and together:
+
+- how many were verified by themselves, and how many by others; off by more than 5 % of the photo's width, how many;
+- the same for those pairs of photos that do not overlap by `overlaps.agreement`, but have enough in common;
+- wrong models: photos of other rooms are fitted to a scan as well as can be, and other photos of their rooms are placed
+  by these, verified or not: how many of these are verified. None should be.
+"""
+
+import argparse
+import sys
+from itertools import permutations
+from pathlib import Path
+from tempfile import mkdtemp
+
+import numpy as np
+
+from benchmarks.archive import MOST_OFF, make, off_by, place_of, processor_time, rooms_of
+from benchmarks.rooms import Room
+from reflcolor_addon.files.readers import read_scans
+from reflcolor_addon.matching.opened_photos import opened_photos
+from reflcolor_addon.matching.registration.registration import ScanViews, register
+from reflcolor_addon.matching.registration.resection import overlapping, placed_by
+
+_SCANS, _PHOTOS, _WRONG_ON_A_SCAN = 30, 40, 1
+
+
+def main():
+    """Measure archives, print the figures."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("seeds", type=int, nargs="+")
+    every = [_Archive(seed).measured() for seed in parser.parse_args().seeds]
+    if len(every) > 1:
+        print("together")
+        _print({name: [entry for own in every for entry in own[name]] for name in every[0]})
+
+
+class _Archive:
+    def __init__(self, seed):
+        self._folder = Path(mkdtemp(prefix="resection-"))
+        self._right = make(self._folder, _SCANS, _PHOTOS, seed)
+        self._rooms, self._shown = rooms_of(_SCANS, _PHOTOS, seed)
+        self._seed, self._rng = seed, np.random.default_rng((seed, 9))
+        self._found = {"alone": [], "by others": [], "apart": [], "wrong": []}
+
+    def measured(self):
+        for number in range(_SCANS):
+            (scan,) = read_scans(self._folder / f"scan_{number:02d}.ptx")
+            views = ScanViews(scan)
+            self._of_its_room(number, views)
+            self._of_other_rooms(number, views)
+            print(f"archive {self._seed}, scan {number}", file=sys.stderr, flush=True)
+        print(f"archive {self._seed}")
+        _print(self._found)
+        return self._found
+
+    def _of_its_room(self, number, views):
+        photos = {photo: self._photo(photo) for scan, photo in sorted(self._right) if scan == number}
+        alone = {photo: register(views, image) for photo, image in photos.items()}
+        away = {photo: self._off(number, views.scan, photo, own) for photo, own in alone.items() if own.accepted}
+        self._found["alone"] += [away.get(photo) for photo in photos]
+        for photo, other in permutations(photos, 2):
+            # What follows from a wrong camera is wrong, too.
+            if away.get(other, 1.0) > MOST_OFF:
+                continue
+            near = overlapping(photos[photo], [photos[other]])
+            before = processor_time()
+            found = placed_by(views, photos[photo], [(photos[other], alone[other].model)])
+            entry = None if found is None else self._off(number, views.scan, photo, found)
+            seconds = processor_time() - before
+            self._found["by others" if near else "apart"].append((photo in away, entry, seconds))
+
+    def _of_other_rooms(self, number, views):
+        chosen = [photo for photo in range(_PHOTOS) if (number, photo) not in self._right]
+        for photo in self._rng.choice(chosen, _WRONG_ON_A_SCAN, replace=False):
+            others = [other for other in chosen if other != photo and self._shown[other] == self._shown[photo]]
+            image = self._photo(photo)
+            near = [other for other in others if overlapping(self._photo(other), [image])]
+            if near and (wrong := register(views, image)).model is not None:
+                for other in near:
+                    found = placed_by(views, self._photo(other), [(image, wrong.model)])
+                    self._found["wrong"].append((wrong.accepted, found is not None))
+
+    def _photo(self, number):
+        return opened_photos([self._folder / f"photo_{number:02d}.png"])[0]
+
+    def _off(self, number, scan, photo, registration):
+        return off_by(scan, registration.model, Room(self._shown[photo]), photo, place_of(number, _SCANS))
+
+
+def _print(found):
+    alone = [away for away in found["alone"] if away is not None]
+    print(f"  pairs of a scan and a photo of its room: {len(found['alone'])}")
+    print(f"  verified by itself: {len(alone)}, {sum(away > MOST_OFF for away in alone)} of them with a wrong camera")
+    for name, said in (("by others", "placed by another that overlaps"), ("apart", "placed by another that does not")):
+        for verified, which in ((False, "not verified by itself"), (True, "verified by itself")):
+            own = [(away, seconds) for before, away, seconds in found[name] if before == verified]
+            placed = [away for away, _ in own if away is not None]
+            wrong, seconds = sum(away > MOST_OFF for away in placed), np.mean([seconds for _, seconds in own] or [0])
+            print(f"  {which}, {said}: {len(placed)} of {len(own)}, {wrong} wrong, {seconds:.1f} s each")
+    for accepted, which in ((False, "refused"), (True, "verified")):
+        own = [placed for before, placed in found["wrong"] if before == accepted]
+        print(f"  by a photo of another room that was {which} here: {sum(own)} of {len(own)}")
+
+
+if __name__ == "__main__":
+    main()
