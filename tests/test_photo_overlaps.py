@@ -1,6 +1,7 @@
 """Photos that overlap are of one place: where one of them was found, the others are tried, too."""
 
 import csv
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -180,17 +181,21 @@ def test_what_a_photo_shows_is_tried_for_those_that_overlap_it_beyond_the_share_
     assert "2" not in second.get("scan 20", ())
     third = chosen.next(Verdicts({"0": both, "1": both[:1]}), {})
     assert "2" in third["scan 20"] and "2" in third["scan 21"]
-    pairs = sum(len(own) for own in second.values()) + sum(len(own) for own in third.values())
+    rounds = [second, third]
     while more := chosen.next(Verdicts({}), {}):
-        pairs += sum(len(own) for own in more.values())
+        rounds.append(more)
     # Both scans for each of the three photos do not count.
-    assert pairs == int(0.105 * 1200) - 40 + 6
+    free = {(photo, name) for photo in "012" for name in ("scan 20", "scan 21")}
+    tried = [(photo, name, how.short) for pairs in rounds for name, own in pairs.items() for photo, how in own.items()]
+    spent = sum(0.35 if short else 1.0 for photo, name, short in tried if (photo, name) not in free)
+    assert free <= {(photo, name) for photo, name, _ in tried}
+    assert int(0.105 * 1200) - 40 <= spent < int(0.105 * 1200) - 39
 
 
 def helped(tries, claims):
     """What the next round of tries is helped with: (photo, item), and by which photos."""
     pairs = tries.next(Verdicts(claims), {})
-    return {(photo, name): by for name, own in pairs.items() for photo, by in own.items() if by}
+    return {(photo, name): how.helpers for name, own in pairs.items() for photo, how in own.items() if how.helpers}
 
 
 def test_photos_help_to_place_others_where_they_were_found():
@@ -253,6 +258,28 @@ def test_a_registration_by_others_is_kept_beside_that_without_help(tmp_path):
     other.place(job, "b.jpg", lambda: None)
     assert other(job, "b.jpg", pytest.fail).beside is None
     Registrations(folder, hashes, helpers={"b.jpg": [""]}).place(job, "b.jpg", pytest.fail)
+
+
+def test_that_a_short_search_found_nothing_is_kept_but_is_not_the_last_word(tmp_path):
+    (folder := BatchFolder(tmp_path)).make()
+    hashes, job = {"a.ptx": "1", "b.jpg": "2", "c.jpg": "3"}, SimpleNamespace(path=Path("a.ptx"), index=1)
+    shortly = Registrations(folder, hashes, short=["b.jpg", "c.jpg"])
+    asked = []
+
+    def register(found, short=False):
+        asked.append(short)
+        return found
+
+    nothing = Registration.nothing("a short search")
+    assert shortly(job, "b.jpg", partial(register, nothing)) is nothing
+    assert not shortly(job, "b.jpg", pytest.fail).accepted and shortly.recalled == 1
+    assert shortly(job, "c.jpg", partial(register, registration(30.0))).accepted
+    # What was found is the answer; else it is searched for in full, and then that is the answer.
+    in_full = Registrations(folder, hashes)
+    assert in_full(job, "c.jpg", pytest.fail).accepted
+    assert in_full(job, "b.jpg", partial(register, registration(20.0))).accepted
+    assert asked == [True, True, False]
+    assert shortly(job, "b.jpg", pytest.fail).accepted
 
 
 def test_a_photo_that_looks_like_another_scan_is_found_by_one_that_overlaps_it(tmp_path, monkeypatch):

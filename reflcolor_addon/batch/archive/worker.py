@@ -124,7 +124,11 @@ class _Worker:
             cancelled=self.cancelled,
             blender=self._outer.blender,
             registrations=Registrations(
-                BatchFolder(Path(request["folder"])), request["hashes"], plan.reading, request.get("placed_by")
+                BatchFolder(Path(request["folder"])),
+                request["hashes"],
+                plan.reading,
+                helpers=request.get("placed_by"),
+                short=request.get("short", ()),
             ),
         )
 
