@@ -199,12 +199,12 @@ def helped(tries, claims):
 
 
 def test_photos_help_to_place_others_where_they_were_found():
-    ranks = {photo: [(f"scan {number}", 1.0) for number in range(30)] for photo in "abcd"}
-    tries = Tries(ranks, {}, overlaps={"a": ["c", "b"], "b": ["a"], "c": ["a"]})
+    ranks = {photo: [(f"scan {number}", 1.0) for number in range(30)] for photo in "abcde"}
+    tries = Tries(ranks, {}, overlaps={"a": ["e", "c", "b"], "b": ["a"], "c": ["a"], "e": ["a"]})
     assert helped(tries, {}) == {}
-    sure, unsure = (claim("scan 9", 80.0, evidence=evidence) for evidence in (2.0, 1.05))
-    claims = {"b": [sure], "c": [unsure], "d": [claim("scan 8", 80.0, evidence=2.0)]}
-    # What is sure needs no help, and what does not overlap helps nothing. That which agrees best comes first.
+    sure, as_sure, unsure = (claim("scan 9", 80.0, evidence=evidence) for evidence in (2.0, 2.0, 1.05))
+    claims = {"b": [sure], "c": [as_sure], "d": [claim("scan 8", 80.0, evidence=2.0)], "e": [unsure]}
+    # What is sure needs no help, what is unsure gives none, and what does not overlap helps nothing.
     assert helped(tries, claims) == {("a", "scan 9"): ("c", "b")}
     # Placed with their help, it does not help to place better what helped it. It is not tried again with the same.
     assert helped(tries, claims | {"a": [claim("scan 9", 60.0, helpers=("c", "b"))]}) == {}

@@ -90,7 +90,8 @@ def verified(scans, photos, hand, settings, step, registered=None):
         found = located(scans, [place.views for place in places], hand, photo, counted, of_photo)
         for place, location in zip(places, found, strict=True):
             place.locations.append(location)
-    _place_by_others(places, photos, hand, step)
+    # What a batch found was compared with others then.
+    _place_by_others(places, photos, hand, step, verified_too=registered is None)
     for place in places:
         place.warnings += [warning for location in place.locations for warning in location.warnings]
         _let_go_of_views(place)
@@ -104,8 +105,11 @@ def verified(scans, photos, hand, settings, step, registered=None):
         yield seeds, place.locations, colors, place.warnings
 
 
-def _place_by_others(places, photos, hand, step):
-    """Place photos by what they have in common with photos that are verified; those help to place others in turn."""
+def _place_by_others(places, photos, hand, step, verified_too):
+    """Place photos by what they have in common with photos that are verified; those help to place others in turn.
+
+    With ``verified_too`` it is tried for photos, too, that are verified themselves, but not beyond doubt.
+    """
     scans, views = [place.scan for place in places], [place.views for place in places]
     compared, progressed = set(), len(photos) > 1
     while progressed:
@@ -115,7 +119,8 @@ def _place_by_others(places, photos, hand, step):
             found = {
                 number: registration
                 for number, place in enumerate(places)
-                if (registration := _by_others(place, photos, index, compared, text)) is not None
+                if (verified_too or not place.locations[index].verified)
+                and (registration := _by_others(place, photos, number, index, compared, text)) is not None
             }
             if not found:
                 continue
@@ -126,10 +131,10 @@ def _place_by_others(places, photos, hand, step):
                 place.locations[index] = location
 
 
-def _by_others(place, photos, index, compared, step):
+def _by_others(place, photos, scan, index, compared, step):
     """The registration of a photo on a scan by others that are verified there; None where it is no better.
 
-    ``compared`` holds what was compared already: scan's place, photo and other photo.
+    ``compared`` holds the numbers of scan, photo and other photo of what was compared already.
     """
     location = place.locations[index]
     if location.beyond_doubt or not location.tested:
@@ -137,9 +142,9 @@ def _by_others(place, photos, index, compared, step):
     others = [
         number
         for number, other in enumerate(place.locations)
-        if other.verified and number != index and (id(place), index, number) not in compared
+        if other.verified and number != index and (scan, index, number) not in compared
     ]
-    compared.update((id(place), index, number) for number in others)
+    compared.update((scan, index, number) for number in others)
     if not others:
         return None
     near = overlapping(photos[index], [photos[number] for number in others])

@@ -91,10 +91,10 @@ def match_items(context, items, own, looks, known_pairs, matched):
         What is found is added to it, little by little.
     """
     whole = own >= {item.name for item in items}
+    if whole:
+        looks.overlaps = overlapping(context, looks, len(items))
+        looks.rank()
     if not looks.few:
-        if whole:
-            looks.overlaps = overlapping(context, looks, len(items))
-            looks.rank()
         # A part of a batch does not look again at what other parts have.
         second_looks(context, [item for item in items if item.name in own], looks)
     rounds = _Rounds(context, items, own, looks, known_pairs, matched)

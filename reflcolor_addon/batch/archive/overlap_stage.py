@@ -30,6 +30,8 @@ def overlapping(context, looks, scans):
         For the path of each photo the paths of others, those that agree best.
     """
     paths = [path for path in looks.photos if looks.hashes[path] and path not in context.problems]
+    if len(paths) < 2:
+        return {}
     size = max(1, min(_LARGEST_BLOCK, -(-len(paths) // 2)))
     blocks = [paths[first : first + size] for first in range(0, len(paths), size)]
     reach = -(-MOST_COMPARED * scans // size)

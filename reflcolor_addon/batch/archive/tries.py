@@ -103,14 +103,17 @@ class Tries:
         return dict(pairs)
 
     def _helped(self, verdicts):
-        """Pairs (photo, item), and for each the photos that help: they overlap it, and were found to show the item."""
-        shown = {photo: set(verdict.shown) for photo, verdict in verdicts.by_photo().items()}
+        """Pairs (photo, item), and for each the photos that help: they overlap it, and certainly show the item."""
+        shown = {(photo, name) for photo, verdict in verdicts.by_photo().items() for name in verdict.shown}
         certain, helped = verdicts.certain(), {}
+        shows = defaultdict(set)
+        for other, name in certain:
+            shows[other].add(name)
         for photo in self._ranks:
-            others = [other for other in self._overlaps.get(photo, ()) if other in shown]
-            for name in sorted(set().union(*(shown[other] for other in others))):
-                helpers, before = [other for other in others if name in shown[other]], self._helpers.get((photo, name))
-                if name in shown.get(photo, ()):
+            others = [other for other in self._overlaps.get(photo, ()) if other in shows]
+            for name in sorted(set().union(*(shows[other] for other in others))):
+                helpers, before = [other for other in others if name in shows[other]], self._helpers.get((photo, name))
+                if (photo, name) in shown:
                     # What was placed with help does not help to place better what was placed without.
                     helpers = [other for other in helpers if (other, name) not in self._helpers]
                     if (photo, name) in certain or before:

@@ -17,8 +17,11 @@ from .registration import derived
 LEAST_PLACES = 16
 """So many places must agree about a camera."""
 _RATIO = 0.85
-# How far off a place may be, as a share of the photo's longer side, and how often a camera is sought.
-_NEAR_SHARE, _MOST_TRIES = 0.01, 300
+# How far off a place may be, as a share of the photo's longer side.
+_NEAR_SHARE = 0.01
+# How often a homography and a pose are sought, how many points must agree about the one, and how often a camera is
+# fitted to what agrees about it.
+_MOST_TRIES, _MOST_POSES, _LEAST_FLAT, _ROUNDS = 5000, 100, 8, 3
 # A point of the photo has the place of the scan's pixels that are seen around it, if these are about as far away.
 _AROUND, _SAME_DEPTH, _REACH = 4, 0.05, 2.0
 # With so many other photos it is tried, with those first that agree best.
@@ -86,22 +89,26 @@ def resected(scan, photo, other, model):
         How many places agree about it.
     """
     nothing = None, 0
-    (own_features, own_shape), (other_features, other_shape) = of_photo(photo), of_photo(other)
-    points = matches(own_features, other_features, _RATIO)
+    points = _in_common(photo, other)
     if points is None:
         return nothing
-    xy, other_xy = (
-        at * [whole.width / shape[1], whole.height / shape[0]]
-        for at, whole, shape in zip(points[:2], (photo, other), (own_shape, other_shape), strict=True)
-    )
+    xy, other_xy, flat = points
     places, known = _places_at(scan, model, other_xy)
-    if known.sum() < LEAST_PLACES:
+    places, xy, flat = places[known], xy[known], flat[known]
+    if flat.sum() < _LEAST_FLAT:
         return nothing
-    places, xy = places[known], xy[known]
-    kept, start = _agreeing(places, xy, photo)
-    if len(kept) < LEAST_PLACES:
-        return nothing
-    return polished(start, places[kept], xy[kept])[0], len(kept)
+    longer, best, count = max(photo.width, photo.height), None, 0
+    for focal in FOCALS:
+        start = _camera(places[flat], xy[flat], focal * longer, photo)
+        for _ in range(_ROUNDS):
+            agree = _agree(start, places, xy)
+            if agree.sum() < LEAST_PLACES:
+                break
+            start = polished(start, places[agree], xy[agree])[0]
+        agree = _agree(start, places, xy)
+        if agree.sum() > count:
+            best, count = start, int(agree.sum())
+    return (best, count) if count >= LEAST_PLACES else nothing
 
 
 def _described(photo):
@@ -129,22 +136,51 @@ def _places_at(scan, model, xy):
     return (points[around] * weight[..., None]).sum(axis=1) / weight.sum(axis=1)[:, None], known
 
 
-def _agreeing(places, xy, photo):
-    """Which pairs agree about a camera, of all focal lengths that photos may have, and that camera, roughly."""
+def _in_common(photo, other):
+    """Points (N, 2) of a photo and of another one that may show the same, and (N,) bool: which of them agree about a
+    homography, as what is flat does; None where there are too few.
+
+    Where things are not flat, or repeat, most points do not agree about it. But those that do are nearly all right.
+    """
     import cv2
 
-    longer = max(photo.width, photo.height)
-    limits = {"iterationsCount": _MOST_TRIES, "reprojectionError": _NEAR_SHARE * longer}
-    kept, best = np.zeros(0, int), None
-    for focal in FOCALS:
-        matrix = np.array([[focal * longer, 0, photo.width / 2], [0, focal * longer, photo.height / 2], [0, 0, 1.0]])
-        cv2.setRNGSeed(0)
-        try:
-            found, turn, shift, fit = cv2.solvePnPRansac(places, xy, matrix, None, flags=cv2.SOLVEPNP_SQPNP, **limits)
-        except cv2.error:
-            continue  # the places lie nearly in a line
-        if found and fit is not None and len(fit) > len(kept):
-            turn = cv2.Rodrigues(turn)[0]
-            kept = fit[:, 0]
-            best = Camera(turn, -turn.T @ shift[:, 0], focal * longer, 0.0, photo.width, photo.height)
-    return kept, best
+    (own_features, own_shape), (other_features, other_shape) = of_photo(photo), of_photo(other)
+    points = matches(own_features, other_features, _RATIO)
+    if points is None:
+        return None
+    cv2.setRNGSeed(0)
+    limits = {"maxIters": _MOST_TRIES, "confidence": 0.999}
+    near = _NEAR_SHARE * max(own_shape)
+    _, flat = cv2.findHomography(points[1], points[0], cv2.USAC_MAGSAC, near, **limits)
+    if flat is None:
+        return None
+    xy, other_xy = (
+        at * [whole.width / shape[1], whole.height / shape[0]]
+        for at, whole, shape in zip(points[:2], (photo, other), (own_shape, other_shape), strict=True)
+    )
+    return xy, other_xy, flat.ravel() > 0
+
+
+def _camera(places, xy, focal_px, photo):
+    """The camera of a focal length that most pairs of a place and a point agree about; None where there is none."""
+    import cv2
+
+    matrix = np.array([[focal_px, 0, photo.width / 2], [0, focal_px, photo.height / 2], [0, 0, 1.0]])
+    limits = {"iterationsCount": _MOST_POSES, "reprojectionError": _NEAR_SHARE * max(photo.width, photo.height)}
+    cv2.setRNGSeed(0)
+    try:
+        found, turn, shift, _ = cv2.solvePnPRansac(places, xy, matrix, None, flags=cv2.SOLVEPNP_SQPNP, **limits)
+    except cv2.error:
+        return None  # the places lie nearly in a line
+    if not found:
+        return None
+    turn = cv2.Rodrigues(turn)[0]
+    return Camera(turn, -turn.T @ shift[:, 0], focal_px, 0.0, photo.width, photo.height)
+
+
+def _agree(camera, places, xy):
+    """(N,) bool: which pairs agree about a camera."""
+    if camera is None:
+        return np.zeros(len(xy), bool)
+    seen, _ = camera.project(places)
+    return np.hypot(*(seen - xy).T) <= _NEAR_SHARE * max(camera.width, camera.height)
