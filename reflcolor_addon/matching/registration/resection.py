@@ -24,6 +24,7 @@ _NEAR_SHARE = 0.01
 _MOST_TRIES, _MOST_POSES, _LEAST_FLAT, _ROUNDS = 5000, 100, 8, 3
 # A point of the photo has the place of the scan's pixels that are seen around it, if these are about as far away.
 _AROUND, _SAME_DEPTH, _REACH = 4, 0.05, 2.0
+_MOST_PIXELS = 300_000
 # With so many other photos it is tried, with those first that agree best.
 _MOST_OTHERS = 3
 
@@ -120,7 +121,9 @@ def _places_at(scan, model, xy):
     that is known."""
     from scipy.spatial import cKDTree
 
-    rows, cols = np.nonzero(scan.valid)
+    # Of a large scan every n-th row and column is enough: a photo's features are no finer.
+    step = max(1, round(np.sqrt(scan.valid.size / _MOST_PIXELS)))
+    rows, cols = (step * index for index in np.nonzero(scan.valid[::step, ::step]))
     seen, depth = model.project(model.sites_of(scan, rows, cols))
     inside = (depth > 0) & within(model, seen)
     points, seen = scan.points[rows, cols][inside], seen[inside]
