@@ -63,10 +63,8 @@ def _measure_real_scan():
                 if found is not None:
                     placed.append((np.linalg.norm(found.model.center), abs(found.model.focal_px / focal - 1)))
     away, zoomed = np.max(placed, axis=0)
-    print(
-        f"bildstein: {len(placed)} of {count} neighboring views placed, at most {away:.2f} m away, at things 3 to 85 m"
-    )
-    print(f"  away, and with a focal length off by at most {zoomed:.1%}")
+    print(f"bildstein: {len(placed)} of {count} neighboring views placed, at most {away:.2f} m away from where they were")
+    print(f"  taken (things are 3 to 85 m away), and with a focal length off by at most {zoomed:.1%}")
 
 
 class _Archive:
