@@ -63,8 +63,8 @@ def _measure_real_scan():
                 if found is not None:
                     placed.append((np.linalg.norm(found.model.center), abs(found.model.focal_px / focal - 1)))
     away, zoomed = np.max(placed, axis=0)
-    print(f"bildstein: {len(placed)} of {count} neighboring views placed, at most {away:.2f} m away from where they were")
-    print(f"  taken (things are 3 to 85 m away), and with a focal length off by at most {zoomed:.1%}")
+    print(f"bildstein: {len(placed)} of {count} neighboring views placed, {away:.2f} m or less from where they were")
+    print(f"  taken (things are 3 to 85 m away), and with a focal length off by {zoomed:.1%} or less")
 
 
 class _Archive:
