@@ -211,6 +211,17 @@ def test_photos_help_to_place_others_where_they_were_found():
     assert helped(tries, claims) == {}
 
 
+def test_what_was_tried_shortly_is_tried_with_help_once_and_not_by_itself_again():
+    ranks = {photo: [(f"scan {number}", 1.0) for number in range(30)] for photo in "ab"} | {
+        f"other {number}": [(f"scan {scan}", 1.0) for scan in range(30)] for number in range(40)
+    }
+    tries, tried = Tries(ranks, {}, overlaps={"a": ["b"], "b": ["a"]}), []
+    claims = {"b": [claim("scan 1", 80.0, evidence=2.0)]}
+    while pairs := tries.next(Verdicts(claims if ("scan 1", ()) in tried else {}), {}):
+        tried += [(name, own["a"].helpers) for name, own in pairs.items() if "a" in own]
+    assert [helpers for name, helpers in tried if name == "scan 1"] == [(), ("b",)]
+
+
 def test_a_photo_whose_place_is_unsure_is_placed_anew_by_others_that_were_found_without_help():
     ranks = {photo: [(f"scan {number}", 1.0) for number in range(30)] for photo in "ab"}
     tries = Tries(ranks, {}, overlaps={"a": ["b"], "b": ["a"]})

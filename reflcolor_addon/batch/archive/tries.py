@@ -86,6 +86,8 @@ class Tries:
         else:
             for (photo, name), helpers in self._helped(verdicts).items():
                 self._tried[photo].add(name)
+                # Where it cannot be placed so, it is tried in full.
+                self._shortly[photo].discard(name)
                 pairs[name][photo] = Try(helpers)
             chosen, free = self._by_themselves(verdicts, partners)
             size = self._size
