@@ -202,7 +202,7 @@ def rounds_of(ranks, claims=None, *, first=(), partners=None, few=False):
 
 
 def count(rounds, photo):
-    return len({pair for pairs in rounds for pair in pairs if pair[0] == photo})
+    return sum(own == photo for pairs in rounds for own, _ in pairs)
 
 
 # Many more pairs, so that the share of all that may be tried does not end the rounds.
@@ -270,33 +270,7 @@ def test_what_was_likeliest_at_the_first_look_is_tried_before_the_rest_unless_th
 def test_a_few_photos_are_tried_on_several_scans_at_once():
     ranks = {photo: [(f"scan {number}", 1.0) for number in range(200)] for photo in "abc"}
     rounds = rounds_of(ranks)
-    # Each on 12 scans, at first on three; on three of the others it is tried in full when nothing else is left.
-    assert [len(pairs) for pairs in rounds] == [9, 9, 9, 9, 3]
-
-
-def test_after_the_likeliest_scan_tries_are_short_and_the_likeliest_of_these_are_tried_in_full_at_the_end():
-    ranks = {"a": [(name, 0.5**k) for k, name in enumerate(_NAMES)]} | _OTHERS
-    tries, found = Tries(ranks, {}), []
-    while pairs := tries.next(Verdicts({}), {}):
-        found += [(name, own["a"].short) for name, own in pairs.items() if "a" in own]
-    assert [short for _, short in found] == [False] + 11 * [True] + 3 * [False]
-    assert [name for name, _ in found] == _NAMES[:12] + _NAMES[1:4]
-
-
-def test_a_photo_that_a_short_try_found_is_not_tried_there_again():
-    ranks = {"a": [(name, 0.5**k) for k, name in enumerate(_NAMES)]} | _OTHERS
-    tries, found, claims = Tries(ranks, {}), [], {}
-    while pairs := tries.next(Verdicts(claims), {}):
-        found += [name for name, own in pairs.items() if "a" in own]
-        if "scan 05" in found:
-            claims = {"a": [claim("scan 05", 80.0, evidence=2.0)]}
-    assert found.count("scan 05") == 1 and "scan 06" not in found[found.index("scan 05") + 2 :]
-
-
-def test_in_a_small_archive_no_try_is_short():
-    tries = Tries({"a": [(name, 1.0 / (k + 1)) for k, name in enumerate(_NAMES)]}, {}, few=True)
-    while pairs := tries.next(Verdicts({}), {}):
-        assert not any(how.short for own in pairs.values() for how in own.values())
+    assert [len(pairs) for pairs in rounds] == [9, 9, 9]
 
 
 def test_in_a_small_archive_a_photo_that_is_not_found_is_tried_on_all_scans():
@@ -306,10 +280,7 @@ def test_in_a_small_archive_a_photo_that_is_not_found_is_tried_on_all_scans():
 
 def test_no_more_than_a_share_of_all_pairs_is_matched():
     ranks = {f"{photo}": [(f"scan {number}", 1.0) for number in range(30)] for photo in range(40)}
-    tries, spent = Tries(ranks, {}), 0.0
-    while pairs := tries.next(Verdicts({}), {}):
-        spent += sum(0.35 if how.short else 1.0 for own in pairs.values() for how in own.values())
-    assert 0.1 * 1200 <= spent < 0.106 * 1200
+    assert sum(map(len, rounds_of(ranks))) <= 0.15 * 1200
 
 
 def test_scans_that_another_photo_shows_to_be_of_one_place_are_tried_beyond_that_share():

@@ -1,7 +1,6 @@
 """Photos that overlap are of one place: where one of them was found, the others are tried, too."""
 
 import csv
-from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -181,21 +180,17 @@ def test_what_a_photo_shows_is_tried_for_those_that_overlap_it_beyond_the_share_
     assert "2" not in second.get("scan 20", ())
     third = chosen.next(Verdicts({"0": both, "1": both[:1]}), {})
     assert "2" in third["scan 20"] and "2" in third["scan 21"]
-    rounds = [second, third]
+    pairs = sum(len(own) for own in second.values()) + sum(len(own) for own in third.values())
     while more := chosen.next(Verdicts({}), {}):
-        rounds.append(more)
+        pairs += sum(len(own) for own in more.values())
     # Both scans for each of the three photos do not count.
-    free = {(photo, name) for photo in "012" for name in ("scan 20", "scan 21")}
-    tried = [(photo, name, how.short) for pairs in rounds for name, own in pairs.items() for photo, how in own.items()]
-    spent = sum(0.35 if short else 1.0 for photo, name, short in tried if (photo, name) not in free)
-    assert free <= {(photo, name) for photo, name, _ in tried}
-    assert int(0.105 * 1200) - 40 <= spent < int(0.105 * 1200) - 39
+    assert pairs == int(0.105 * 1200) - 40 + 6
 
 
 def helped(tries, claims):
     """What the next round of tries is helped with: (photo, item), and by which photos."""
     pairs = tries.next(Verdicts(claims), {})
-    return {(photo, name): how.helpers for name, own in pairs.items() for photo, how in own.items() if how.helpers}
+    return {(photo, name): by for name, own in pairs.items() for photo, by in own.items() if by}
 
 
 def test_photos_help_to_place_others_where_they_were_found():
@@ -211,14 +206,14 @@ def test_photos_help_to_place_others_where_they_were_found():
     assert helped(tries, claims) == {}
 
 
-def test_what_was_tried_shortly_is_tried_with_help_once_and_not_by_itself_again():
+def test_what_was_tried_by_itself_is_tried_with_help_once():
     ranks = {photo: [(f"scan {number}", 1.0) for number in range(30)] for photo in "ab"} | {
         f"other {number}": [(f"scan {scan}", 1.0) for scan in range(30)] for number in range(40)
     }
     tries, tried = Tries(ranks, {}, overlaps={"a": ["b"], "b": ["a"]}), []
     claims = {"b": [claim("scan 1", 80.0, evidence=2.0)]}
     while pairs := tries.next(Verdicts(claims if ("scan 1", ()) in tried else {}), {}):
-        tried += [(name, own["a"].helpers) for name, own in pairs.items() if "a" in own]
+        tried += [(name, own["a"]) for name, own in pairs.items() if "a" in own]
     assert [helpers for name, helpers in tried if name == "scan 1"] == [(), ("b",)]
 
 
@@ -269,28 +264,6 @@ def test_a_registration_by_others_is_kept_beside_that_without_help(tmp_path):
     other.place(job, "b.jpg", lambda: None)
     assert other(job, "b.jpg", pytest.fail).beside is None
     Registrations(folder, hashes, helpers={"b.jpg": [""]}).place(job, "b.jpg", pytest.fail)
-
-
-def test_that_a_short_search_found_nothing_is_kept_but_is_not_the_last_word(tmp_path):
-    (folder := BatchFolder(tmp_path)).make()
-    hashes, job = {"a.ptx": "1", "b.jpg": "2", "c.jpg": "3"}, SimpleNamespace(path=Path("a.ptx"), index=1)
-    shortly = Registrations(folder, hashes, short=["b.jpg", "c.jpg"])
-    asked = []
-
-    def register(found, short=False):
-        asked.append(short)
-        return found
-
-    nothing = Registration.nothing("a short search")
-    assert shortly(job, "b.jpg", partial(register, nothing)) is nothing
-    assert not shortly(job, "b.jpg", pytest.fail).accepted and shortly.recalled == 1
-    assert shortly(job, "c.jpg", partial(register, registration(30.0))).accepted
-    # What was found is the answer; else it is searched for in full, and then that is the answer.
-    in_full = Registrations(folder, hashes)
-    assert in_full(job, "c.jpg", pytest.fail).accepted
-    assert in_full(job, "b.jpg", partial(register, registration(20.0))).accepted
-    assert asked == [True, True, False]
-    assert shortly(job, "b.jpg", pytest.fail).accepted
 
 
 def test_a_photo_that_looks_like_another_scan_is_found_by_one_that_overlaps_it(tmp_path, monkeypatch):

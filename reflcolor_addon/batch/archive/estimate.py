@@ -9,7 +9,7 @@ from .candidates import SECOND_LOOKS, are_few
 from .costs import SECONDS_PER_COMPARISON, SECONDS_PER_LOOK, SECONDS_PER_LOOK_OF_SCANS, SECONDS_PER_SECOND_LOOK
 from .overlap_stage import MOST_COMPARED
 from .progress_lines import duration
-from .tries import MOST_OF_A_PHOTO
+from .tries import MOST_SCANS
 
 _SECONDS_TO_RENDER = 8.0
 # A photo colors one place; some places have so many times as many photos as usual.
@@ -49,7 +49,7 @@ def estimate(manifest, options, costs):
         looks += SECONDS_PER_SECOND_LOOK * pairs * min(SECOND_LOOKS, offered) / offered
         looks += SECONDS_PER_LOOK_OF_SCANS * pairs
         looks += SECONDS_PER_COMPARISON * pairs * min(pairs / 2, MOST_COMPARED * offered) / offered
-        pairs *= min(MOST_OF_A_PHOTO, offered) / offered
+        pairs *= min(MOST_SCANS, offered) / offered
     seconds = sum(
         costs.seconds(item.plan.scans, pairs if item.offered else 0 if item.plan.seeds else len(item.plan.photos))
         + looks * item.offered

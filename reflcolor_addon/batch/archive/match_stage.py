@@ -10,7 +10,7 @@ from .claims import Claim, Verdict
 from .fingerprints import digest_of, program_digest
 from .look_stage import looks_of_scans, second_looks
 from .overlap_stage import overlapping
-from .tries import MOST_HELPERS, Tries, Try
+from .tries import MOST_HELPERS, Tries
 from .verdicts import Verdicts
 from .workers import Task
 
@@ -112,7 +112,7 @@ def match_items(context, items, own, looks, known_pairs, matched):
 
 def _by_themselves(pairs):
     """Pairs (for each item its photos) that are matched without the help of other photos."""
-    return {name: dict.fromkeys(paths, Try()) for name, paths in pairs.items()}
+    return {name: dict.fromkeys(paths, ()) for name, paths in pairs.items()}
 
 
 class _Rounds:
@@ -132,8 +132,6 @@ class _Rounds:
         self._number = 0
         # Made once: what is compared is kept by them.
         self._claims, self._compared, self._partners = {}, {}, {}
-        # What was tried shortly only.
-        self._shortly = set()
 
     def given(self):
         """The pairs that a person names."""
@@ -158,16 +156,16 @@ class _Rounds:
 
         Parameters
         ----------
-        pairs : dict of str to dict of str to Try
-            For each item the paths of photos, and how they are tried.
+        pairs : dict of str to dict of str to sequence of str
+            For each item the paths of photos, and for each of these those of others that help to place it, or none.
         """
-        tasks, tried, keys = [], {}, {}
+        tasks, keys = [], {}
         for name, wanted in pairs.items():
             item, found = self._items[name], self._found.pairs[name]
             wanted = {
-                path: how
-                for path, how in wanted.items()
-                if (path not in found or how.helpers or (name, path) in self._shortly) and self._may_show(name, path)
+                path: list(helpers)
+                for path, helpers in wanted.items()
+                if (helpers or path not in found) and self._may_show(name, path)
             }
             if item.plan.settings.matching == "paper" or name in self._found.by_likeness:
                 self._found.by_likeness.setdefault(name, []).extend(path for path in wanted if path not in found)
@@ -175,14 +173,13 @@ class _Rounds:
             keys[name] = self._key(item)
             known = self._recalled(keys[name])
             missing = {}
-            for path, how in wanted.items():
-                if (kept := known.get(self._kept_as(path, how))) is not None:
-                    self._take(name, path, how, kept)
+            for path, helpers in wanted.items():
+                if (kept := known.get(self._kept_as(path, helpers))) is not None:
+                    self._take(name, path, helpers, kept)
                 else:
-                    missing[path] = how
+                    missing[path] = helpers
             if missing and name in self._own:
                 tasks.append(self._task(item, missing))
-                tried[name] = missing
         if not tasks:
             return
         # What takes longest begins first, so that no processor is left alone with it at the end.
@@ -190,7 +187,7 @@ class _Rounds:
         self._number += 1
 
         def done(task, outcome):
-            self._keep(task.name, keys[task.name], outcome["found"], tried[task.name])
+            self._keep(task.name, keys[task.name], outcome["found"], task.request["helpers"])
 
         def failed(task):
             # What is wrong is told when the item is colorized.
@@ -201,31 +198,27 @@ class _Rounds:
     def _may_show(self, name, path):
         return self._said.get((name, path)) is not False and path not in self._context.problems
 
-    def _keep(self, name, key, found, tried):
+    def _keep(self, name, key, found, helpers):
         known = self._recalled(key)
         for path, problem in found["problems"].items():
             self._context.tell_problem(path, problem)
         for path, pairs in found["pairs"].items():
-            self._take(name, path, tried[path], pairs)
-            if kept_as := self._kept_as(path, tried[path]):
+            self._take(name, path, helpers.get(path, []), pairs)
+            if kept_as := self._kept_as(path, helpers.get(path, [])):
                 known[kept_as] = pairs
         if key:
             self._context.folder.remember(KIND, key, known)
 
-    def _kept_as(self, path, how):
-        """What is found for a photo that is tried so is kept by this; by None if a hash is not known."""
-        hashes = [self._looks.hashes[other] for other in (path, *how.helpers)]
-        return " ".join([*hashes, "short"] if how.short else hashes) if all(hashes) else None
+    def _kept_as(self, path, helpers):
+        """What is found for a photo, with these photos' help, is kept by this; by None if their hashes are unknown."""
+        hashes = [self._looks.hashes[other] for other in (path, *helpers)]
+        return " ".join(hashes) if all(hashes) else None
 
-    def _take(self, name, path, how, pairs):
-        """Take what was found for a pair; it replaces what was found shortly, or without help."""
+    def _take(self, name, path, helpers, pairs):
+        """Take what was found for a pair; it replaces what was found without help."""
         self._found.pairs[name][path] = pairs
         if any(pair["by_others"] for pair in pairs):
-            self._found.helpers[name][path] = list(how.helpers)
-        if how.short:
-            self._shortly.add((name, path))
-        else:
-            self._shortly.discard((name, path))
+            self._found.helpers[name][path] = helpers
         self._claims.pop((name, path), None)
 
     def _recalled(self, key):
@@ -238,8 +231,8 @@ class _Rounds:
         plan = item.plan
         return digest_of([program_digest(), plan.reading.as_dict(), plan.wanted, plan.name, list(hashes.values())])
 
-    def _task(self, item, tried):
-        paths, others = list(tried), {other for how in tried.values() for other in how.helpers}
+    def _task(self, item, helpers):
+        paths, others = list(helpers), {other for own in helpers.values() for other in own}
         plan = replace(
             item.plan,
             photos=tuple(map(Path, paths)),
@@ -251,7 +244,7 @@ class _Rounds:
         )
         hashes = self._context.hashes(file for path in plan.scans for file in scan_files(path))
         hashes |= {path: self._looks.hashes[path] for path in {*paths, *others}}
-        helpers = {path: list(how.helpers) for path, how in tried.items() if how.helpers}
+        helpers = {path: own for path, own in helpers.items() if own}
         placed_by = self._found.placed_by(item.name, others)
         placed_by |= {path: [self._looks.hashes[other] for other in own] for path, own in helpers.items()}
         # One is open at a time, and those that help to place it.
@@ -265,7 +258,6 @@ class _Rounds:
                 "folder": str(self._context.folder.root),
                 "hashes": hashes,
                 "helpers": helpers,
-                "short": [path for path, how in tried.items() if how.short],
                 "placed_by": placed_by,
             },
             memory=self._context.costs.memory(plan.scans, largest),

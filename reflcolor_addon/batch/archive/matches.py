@@ -18,7 +18,6 @@ from .places import brightness_seen, camera_place, pixels_seen, reflectance_seen
 
 # Share of the progress that is done when the scans are read.
 _READING = 0.1
-_SHORT = "not verified: a short search found nothing"
 
 
 def match_at(plan, session, helpers=None):
@@ -106,7 +105,7 @@ def _told(job, views, location, photo, keep):
         "evidence": round(evidence.share, 3),
         "strength": round(evidence.strength, 3),
         "repeats": evidence.repeats,
-        "note": _SHORT if registration.found_by == "a short search" else str(location.note),
+        "note": str(location.note),
         "reflectance": reflectance,
         "brightness": brightness,
         "camera": camera,

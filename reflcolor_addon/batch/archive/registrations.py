@@ -8,7 +8,6 @@ from ..paths import scan_files
 from .fingerprints import digest_of, program_digest
 
 KIND = "matched"
-_SHORT = "short"
 
 
 class Registrations:
@@ -23,8 +22,6 @@ class Registrations:
         How the scans are read.
     helpers : dict of str to list of str, optional
         For the paths of photos that were placed by what they have in common with others the hashes of those.
-    short : sequence of str
-        The paths of photos for which it is enough that a short search found nothing.
 
     Attributes
     ----------
@@ -32,20 +29,15 @@ class Registrations:
         How many were found here.
     """
 
-    def __init__(self, folder, hashes, reading=AS_IT_IS, helpers=None, short=()):
+    def __init__(self, folder, hashes, reading=AS_IT_IS, helpers=None):
         self._folder, self._hashes, self._reading = folder, hashes, reading.as_dict()
-        self._helpers, self._short = helpers or {}, set(short)
+        self._helpers = helpers or {}
         self.recalled, self._placed = 0, None
 
     def __call__(self, job, photo, register):
-        """Return the `Registration` of a photo on a scan; ``register()`` finds it where it is not known yet.
-
-        ``register(short=True)`` is a short search.
-        """
+        """Return the `Registration` of a photo on a scan; ``register()`` finds it where it is not known yet."""
         found = self.known(job, photo)
         if found is None:
-            if str(photo) in self._short:
-                return self._keep(self._key(job, photo, _SHORT), job, photo, register(short=True))
             return self._keep(self._key(job, photo), job, photo, register())
         self.recalled += self._placed != (job, photo)
         return found
@@ -53,10 +45,6 @@ class Registrations:
     def known(self, job, photo):
         """Return the `Registration` of a photo on a scan, by other photos or by itself; None if it is not known."""
         by_itself = self._recall(self._key(job, photo))
-        if by_itself is None:
-            shortly = self._recall(self._key(job, photo, _SHORT))
-            if shortly is not None and (shortly.accepted or str(photo) in self._short):
-                by_itself = shortly
         by_others = self._recall(self._key_by_others(job, photo)) if str(photo) in self._helpers else None
         if by_others is not None and not by_others.accepted:
             by_others = None

@@ -124,11 +124,7 @@ class _Worker:
             cancelled=self.cancelled,
             blender=self._outer.blender,
             registrations=Registrations(
-                BatchFolder(Path(request["folder"])),
-                request["hashes"],
-                plan.reading,
-                helpers=request.get("placed_by"),
-                short=request.get("short", ()),
+                BatchFolder(Path(request["folder"])), request["hashes"], plan.reading, request.get("placed_by")
             ),
         )
 

@@ -37,9 +37,6 @@ _CLEAR = 1.2
 _GUESSES = 10, 14
 _TRIED = 5
 _ROUNDS, _PROMISING, _WORTH = 2, 0.2, 1.05
-# From this multiple of the needed evidence on a short search goes on. In the archive of ``python -m benchmarks.archive
-# --seed 14`` photos of the scan's room that are verified have 6.8 to 17, most of other rooms less than 3.
-_WORTH_MORE = 3.0
 # A guess is refined with all there is only if its tiles tell something, a second only if it is nearly as good.
 _TELLING, _NEARLY = 1.0, 0.6
 # A homography whose tiles are in place no more often than by chance is dropped. Below chance at once; else it may be
@@ -186,7 +183,7 @@ class ScanViews:
         return self._made[key]
 
 
-def register(views, photo, *, step=lambda text: None, short=False):
+def register(views, photo, *, step=lambda text: None):
     """Find the model of a photo.
 
     Parameters
@@ -195,8 +192,6 @@ def register(views, photo, *, step=lambda text: None, short=False):
     photo : PhotoImage
     step : callable
         Called with a text before each stage; may raise to end the work.
-    short : bool
-        Whether to give up, in about a third of the time, where directions from the scanner's place promise nothing.
 
     Returns
     -------
@@ -209,7 +204,7 @@ def register(views, photo, *, step=lambda text: None, short=False):
     if untestable:
         return Registration.nothing(untestable=untestable)
     best = Registration.nothing()
-    search, from_scanner = Search(views, photo), None
+    search = Search(views, photo)
 
     def features_step():
         step(Message("{photo}: matching features", photo=photo.name))
@@ -220,13 +215,9 @@ def register(views, photo, *, step=lambda text: None, short=False):
     def aside_step():
         step(Message("{photo}: searching viewpoints", photo=photo.name))
 
-    if short:
-        from_scanner = _tried(views, photo, search.from_scanner(search_step), False, step)
-        if from_scanner.evidence.rank < _WORTH_MORE:
-            return Registration.nothing("a short search")
     attempts = (
         lambda: _by_features(views, photo, features_step),
-        lambda: from_scanner or _tried(views, photo, search.from_scanner(search_step), False, step),
+        lambda: _tried(views, photo, search.from_scanner(search_step), False, step),
         lambda: _tried(views, photo, search.from_aside(aside_step), True, step),
     )
     for attempt in attempts:
