@@ -36,7 +36,6 @@ from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.readers import read_scans
 from reflcolor_addon.files.writers import write_ptx
 from reflcolor_addon.matching import match_photos
-from reflcolor_addon.matching.registration.registration import Registration
 from reflcolor_addon.matching.registration.stored import from_document
 from reflcolor_addon.settings import Settings
 
@@ -83,7 +82,11 @@ def main():
     matched_pairs = sum(row["shows"] != "not tried" for row in table)
     away = {pair: own["off"] for pair, own in zip(pairs, true, strict=True) if own["verified"]}
     verified = {pair for pair, off in away.items() if off <= MOST_OFF}
-    off = {pair: away_of(folder, *pair, rooms[pair[1]], arguments.scans) for pair in found.intersection(pairs)}
+    evidence = {(row["scan"], Path(row["photo"]).stem): row["evidence"] for row in table}
+    off = {
+        pair: away_of(folder, *pair, evidence[pair], rooms[pair[1]], arguments.scans)
+        for pair in found.intersection(pairs)
+    }
     correct = {pair for pair, away in off.items() if away <= MOST_OFF}
     lost, false = sorted(verified - found), sorted(found - correct)
     count = arguments.scans * arguments.photos
@@ -197,15 +200,16 @@ def matched(folder, scan, photo, room=None, scans=0):
     return found
 
 
-def away_of(folder, scan, photo, room, scans):
-    """How far off the camera is by which a batch placed a photo of a scan's room."""
-    found = Registration.nothing()
+def away_of(folder, scan, photo, evidence, room, scans):
+    """How far off the camera is by which a batch placed a photo of a scan's room: of all that it found there that of
+    the evidence in its table."""
+    (own,) = read_scans(folder / f"{scan}.ptx")
     for kept in map(json.loads, (path.read_text() for path in folder.glob("colored/*/matched/*.json"))):
         if Path(kept["scan"]).stem == scan and Path(kept["photo"]).stem == photo:
-            registration = from_document(kept["registration"])
-            found = registration if registration.preferable_to(found) else found
-    (own,) = read_scans(folder / f"{scan}.ptx")
-    return off_by(own, found.model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
+            found = from_document(kept["registration"])
+            if f"{round(found.evidence.share, 3):.2f}" == evidence:
+                return off_by(own, found.model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
+    sys.exit(f"{scan}, {photo}: no camera of evidence {evidence} was kept")
 
 
 def off_by(scan, found, room, photo, place):

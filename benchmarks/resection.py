@@ -5,9 +5,10 @@ are placed by the view's own picture alone. All were taken from the scanner's pl
 printed is how far off the place and the focal length are.
 
 On each scan of a simulated archive (benchmarks/archive.py) its photos are matched, each by itself. Then each is placed
-by every other one that overlaps it and was verified. Printed for each archive, and together:
+by every other one that overlaps it and was verified beyond doubt. Printed for each archive, and together:
 
 - how many were verified by themselves, and how many by others; off by more than 5 % of the photo's width, how many;
+- how many were verified by others with a wrong camera: these are wrong, too;
 - the same for those pairs of photos that do not overlap by `overlaps.agreement`, but have enough in common;
 - wrong models: photos of other rooms are fitted to a scan as well as can be, and other photos of their rooms are placed
   by these, verified or not: how many of these are verified. None should be.
@@ -73,7 +74,7 @@ class _Archive:
         self._right = make(self._folder, _SCANS, _PHOTOS, seed)
         self._rooms, self._shown = rooms_of(_SCANS, _PHOTOS, seed)
         self._seed, self._rng = seed, np.random.default_rng((seed, 9))
-        self._found = {"alone": [], "by others": [], "apart": [], "wrong": []}
+        self._found = {"alone": [], "by others": [], "apart": [], "astray": [], "wrong": []}
 
     def measured(self):
         for number in range(_SCANS):
@@ -92,15 +93,17 @@ class _Archive:
         away = {photo: self._off(number, views.scan, photo, own) for photo, own in alone.items() if own.accepted}
         self._found["alone"] += [away.get(photo) for photo in photos]
         for photo, other in permutations(photos, 2):
-            # What follows from a wrong camera is wrong, too.
-            if away.get(other, 1.0) > MOST_OFF:
+            if not alone[other].beyond_doubt:
                 continue
             near = overlapping(photos[photo], [photos[other]])
             before = processor_time()
             found = placed_by(views, photos[photo], [(photos[other], alone[other].model)])
             entry = None if found is None else self._off(number, views.scan, photo, found)
             seconds = processor_time() - before
-            self._found["by others" if near else "apart"].append((photo in away, entry, seconds))
+            if away[other] > MOST_OFF:
+                self._found["astray"].append((near != [], entry))
+            else:
+                self._found["by others" if near else "apart"].append((photo in away, entry, seconds))
 
     def _of_other_rooms(self, number, views):
         chosen = [photo for photo in range(_PHOTOS) if (number, photo) not in self._right]
@@ -130,6 +133,11 @@ def _print(found):
             placed = [away for away, _ in own if away is not None]
             wrong, seconds = sum(away > MOST_OFF for away in placed), np.mean([seconds for _, seconds in own] or [0])
             print(f"  {which}, {said}: {len(placed)} of {len(own)}, {wrong} wrong, {seconds:.1f} s each")
+    for near, which in ((True, "that overlaps"), (False, "that does not overlap")):
+        own = [away for overlaps, away in found["astray"] if overlaps == near]
+        placed = [away for away in own if away is not None]
+        wrong = sum(away > MOST_OFF for away in placed)
+        print(f"  placed by another {which}, with a wrong camera: {len(placed)} of {len(own)}, {wrong} wrong")
     for accepted, which in ((False, "refused"), (True, "verified")):
         own = [placed for before, placed in found["wrong"] if before == accepted]
         print(f"  by a photo of another room that was {which} here: {sum(own)} of {len(own)}")

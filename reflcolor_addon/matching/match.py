@@ -121,6 +121,7 @@ def match_photos(
     settings : Settings, optional
         ``matching="verified"``: each photo's camera is estimated and accepted only if it passes a test; an accepted
         photo gives a seed in every superpixel that it really shows, and others by similarity where that is reliable.
+        A photo that is not accepted by itself is placed by what it has in common with others that are beyond doubt.
         Without an accepted photo there are no seeds, unless ``guess`` asks for guesses.
         ``matching="paper"``: as published, by the most similar superpixel.
     hand : Seeds, optional

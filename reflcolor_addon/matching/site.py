@@ -106,7 +106,8 @@ def verified(scans, photos, hand, settings, step, registered=None):
 
 
 def _place_by_others(places, photos, hand, step, verified_too):
-    """Place photos by what they have in common with photos that are verified; those help to place others in turn.
+    """Place photos by what they have in common with photos that are verified beyond doubt, for a wrong camera would be
+    passed on; those so placed help to place others in turn.
 
     With ``verified_too`` it is tried for photos, too, that are verified themselves, but not beyond doubt.
     """
@@ -132,7 +133,7 @@ def _place_by_others(places, photos, hand, step, verified_too):
 
 
 def _by_others(place, photos, scan, index, compared, step):
-    """The registration of a photo on a scan by others that are verified there; None where it is no better.
+    """The registration of a photo on a scan by others, see `_place_by_others`; None where it is no better.
 
     ``compared`` holds the numbers of scan, photo and other photo of what was compared already.
     """
@@ -142,12 +143,12 @@ def _by_others(place, photos, scan, index, compared, step):
     others = [
         number
         for number, other in enumerate(place.locations)
-        if other.verified and number != index and (scan, index, number) not in compared
+        if other.beyond_doubt and number != index and (scan, index, number) not in compared
     ]
     compared.update((scan, index, number) for number in others)
     if not others:
         return None
-    near = overlapping(photos[index], [photos[number] for number in others])
+    near = overlapping(photos[index], [photos[number] for number in others], step)
     known = [(photos[others[k]], place.locations[others[k]].registration.model) for k in near]
     found = placed_by(place.views, photos[index], known, step)
     return found if found is not None and found.preferable_to(location.registration) else None

@@ -29,16 +29,20 @@ _MOST_PIXELS = 300_000
 _MOST_OTHERS = 3
 
 
-def overlapping(photo, others):
+def overlapping(photo, others, step=lambda text: None):
     """Return which of other photos overlap a photo, as their indices, those first that agree best.
 
     Parameters
     ----------
     photo : PhotoImage
     others : sequence of PhotoImage
+    step : callable
+        Called with a text before each comparison; may raise to end the work.
     """
-    own = _described(photo)
-    agreed = [(-agreement(_described(other), own), index) for index, other in enumerate(others)]
+    own, agreed = _described(photo), []
+    for index, other in enumerate(others):
+        step(Message("{photo}: comparing with {other}", photo=photo.name, other=other.name))
+        agreed.append((-agreement(_described(other), own), index))
     return [index for disagreed, index in sorted(agreed) if -disagreed >= LEAST_AGREEMENT]
 
 
@@ -88,6 +92,11 @@ def resected(scan, photo, other, model):
         None where they have too little in common.
     count : int
         How many places agree about it.
+
+    References
+    ----------
+    .. [1] G. Terzakis, M. Lourakis, "A Consistently Fast and Globally Optimal Solution to the Perspective-n-Point
+       Problem", ECCV 2020: the pose for each focal length.
     """
     nothing = None, 0
     points = _in_common(photo, other)
