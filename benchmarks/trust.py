@@ -1,9 +1,11 @@
 """How often a photo is verified, one that shows the scan and one that does not: python -m benchmarks.trust
 
 Every scan of benchmarks.trust_cases, as it is and with holes in pixels, lines and blobs of 3 to 20 percent, is matched
-with photos that show it and with photos of many kinds that do not. Each try is kept in a file; started again, the
-command goes on where it was, so that it may be stopped at any time. The tries are in an order as if drawn at random,
-every scan once before any comes again: what was tried so far stands for the whole.
+with photos that show it and with photos of many kinds that do not. Each try is kept in a file, benchmarks/trust.jsonl,
+which belongs to the project, so that tries made at different times add up; started again, the command goes on where it
+was, so that it may be stopped at any time. The tries are in an order as if drawn at random, every scan once before any
+comes again: what was tried so far stands for the whole. Several processes may share the work: --part 1/2 and --part 2/2
+with a file of their own each, which are put together afterward.
 
 The rates are printed for each kind, with the limits that they lie within (exact ones of the binomial, 95 percent), and
 the evidence of the surest wrong photos and of the least sure right ones, as a share of what is needed; then, for
@@ -38,7 +40,7 @@ from reflcolor_addon.matching.registration.registration import ScanViews, regist
 from reflcolor_addon.matching.registration.tiles import surfaces
 from reflcolor_addon.matching.registration.verification import RADIUS, in_place
 
-RESULTS = Path("build/trust.jsonl")
+RESULTS = Path(__file__).with_suffix(".jsonl")
 # Of each kind, for one scan with one kind of holes, so that about half are photographs; others of these for each scan.
 _OF_KIND = {"noise": 4, "foreign": 9, "scrambled": 2, "elsewhere": 2, "mirrored": 2, "upside-down": 2, "reflectance": 2}
 # The photos of one scan with one kind of holes are tried in so many parts, each of photos of all kinds.
@@ -61,6 +63,9 @@ def main():
     parser.add_argument("--scan", action="append", choices=trust_cases.SCANS, help="only these scans")
     parser.add_argument("--holes", action="append", choices=trust_cases.HOLES, help="only these holes")
     parser.add_argument("--kind", action="append", choices=trust_cases.WRONG + trust_cases.RIGHT, help="only these")
+    parser.add_argument(
+        "--part", type=_part, default=(0, 1), metavar="K/N", help="only the K-th of N parts of the tries"
+    )
     parser.add_argument("--every-foreign", action="store_true", help="all photographs for each scan, not some of them")
     arguments = parser.parse_args()
     ends = time.monotonic() + 60 * arguments.minutes
@@ -68,7 +73,7 @@ def main():
     photographs = {}
     arguments.results.parent.mkdir(parents=True, exist_ok=True)
     with arguments.results.open("a", encoding="utf-8") as file:
-        for group in _groups(arguments):
+        for group in islice(_groups(arguments), arguments.part[0], None, arguments.part[1]):
             if time.monotonic() >= ends:
                 break
             for try_ in _tried(group, arguments, known, photographs, ends):
@@ -76,6 +81,14 @@ def main():
                 file.write(json.dumps(try_) + "\n")
                 file.flush()
     table([try_ for try_ in known.values() if _asked(try_, arguments)])
+
+
+def _part(text):
+    """The number from 0 and the count that K/N stands for."""
+    number, count = map(int, text.split("/"))
+    if not 1 <= number <= count:
+        raise ValueError(text)
+    return number - 1, count
 
 
 def _groups(arguments):
@@ -144,7 +157,7 @@ def _tried(group, arguments, known, photographs, ends):
             "off": off,
             "seconds": round(time.process_time() - started, 2),
             "code": _code(),
-            "numbers": {name: float(value) for name, value in vars(proof).items()},
+            "numbers": {name: float(f"{value:.4g}") for name, value in vars(proof).items()},
             "wide": _in_wide_windows(views, photo, found.model),
         }
 
