@@ -24,8 +24,8 @@ def cells(seed, noise=0.0):
 HALL, HALL_AGAIN, CELLAR = cells(1), cells(1, noise=0.5), cells(2)
 
 
-def claim(item, strength, reflectance=None, verified=True, **more):
-    return Claim(item=item, verified=verified, strength=strength, reflectance=reflectance, **more)
+def claim(item, strength, reflectance=None, verified=True, evidence=1.0, **more):
+    return Claim(item=item, verified=verified, strength=strength, evidence=evidence, reflectance=reflectance, **more)
 
 
 def verdict(claims):
@@ -53,6 +53,13 @@ def test_where_no_place_is_clearly_better_none_is_shown():
     assert "none is clearly right" in found.doubt("hall")
 
 
+def test_what_exceeds_the_evidence_needed_counts_for_more_than_what_barely_has_it():
+    # On a scan whose walls repeat themselves wrong cameras are strong as well, and more is needed.
+    found = verdict([claim("cellar", 56.0, CELLAR, evidence=1.0), claim("hall", 56.0, HALL, evidence=1.6)])
+    assert found == Verdict(shown=("hall",), refused=("cellar",))
+    assert not verdict([claim("cellar", 56.0, CELLAR, evidence=1.0), claim("hall", 56.0, HALL, evidence=1.4)]).shown
+
+
 def test_scans_that_measured_the_same_reflectance_behind_a_photo_may_all_be_shown():
     both = [claim("hall", 60.0, HALL), claim("hall again", 25.0, HALL_AGAIN), claim("cellar", 30.0, CELLAR)]
     assert verdict(both) == Verdict(shown=("hall", "hall again"), refused=("cellar",))
@@ -63,6 +70,7 @@ def test_a_photo_for_whose_other_place_more_speaks_shows_none_unless_it_would_fi
     found = verdict([claim("hall", 30.0, HALL), other])
     assert found == Verdict(refused=("hall",), likelier=("cellar",))
     assert "more speaks for cellar" in str(found.warning("a.jpg")) and "more speaks for cellar" in found.doubt("hall")
+    assert verdict([claim("hall", 34.0, HALL), other]).shown == ("hall",)
     assert verdict([claim("hall", 30.0, HALL), replace(other, repeats=True)]).shown == ("hall",)
     assert verdict([claim("hall", 30.0, HALL), replace(other, reflectance=HALL_AGAIN)]).shown == ("hall",)
 
@@ -80,6 +88,9 @@ def test_a_photo_gives_no_colors_where_one_that_overlaps_it_clearly_shows_anothe
     assert found == Verdict(refused=("cellar",), likelier=("hall",))
     # Neither if that speaks for it not as clearly, nor if the photo was not tried there.
     assert of_two_that_overlap(barely, missed, by_other={"hall": 39.0}).shown == ("cellar",)
+    # What would fit elsewhere as well may be there, if a photo that overlaps it is.
+    repeats = replace(missed, repeats=True)
+    assert of_two_that_overlap(barely, repeats, by_other={"hall": 41.0}) == found
     assert of_two_that_overlap(barely, by_other={"hall": 90.0}).shown == ("cellar",)
     assert of_two_that_overlap(barely, missed, by_other={"attic": 90.0}).shown == ("cellar",)
 
@@ -106,10 +117,12 @@ def test_photos_that_overlap_may_be_verified_on_different_scans_of_one_place():
 
 def test_what_a_look_saw_counts_where_a_match_found_less():
     other = claim("cellar", 15.0, CELLAR, verified=False)
-    assert verdict([claim("hall", 31.0, HALL, looked=33.0), replace(other, looked=34.0)]).likelier == ("cellar",)
-    assert verdict([claim("hall", 14.0, HALL, looked=45.0), replace(other, looked=11.0)]).shown == ("hall",)
+    assert verdict([claim("hall", 31.0, HALL, looked=33.0), replace(other, looked=50.0)]).likelier == ("cellar",)
+    # Looks are not exact: what is hardly more does not count.
+    assert verdict([claim("hall", 31.0, HALL, looked=33.0), replace(other, looked=49.0)]).shown == ("hall",)
+    assert verdict([claim("hall", 9.0, HALL, looked=45.0), replace(other, looked=11.0)]).shown == ("hall",)
     # Where one of both was not looked at, looks do not tell.
-    assert verdict([claim("hall", 31.0, HALL), replace(other, looked=34.0)]).shown == ("hall",)
+    assert verdict([claim("hall", 31.0, HALL), replace(other, looked=50.0)]).shown == ("hall",)
 
 
 def test_a_person_decides_where_places_contradict_each_other():
@@ -117,13 +130,13 @@ def test_a_person_decides_where_places_contradict_each_other():
     assert found == Verdict(shown=("cellar",), refused=("hall",))
 
 
-def on_the_hall(**photos):
+def on_the_hall(overlaps=None, **photos):
     """The verdicts on photos of one scan: of each how much speaks for it and what it shows."""
     claims = {
         name: [claim("hall", strength, photo=f"{name}.jpg", brightness=seen)]
         for name, (strength, seen) in photos.items()
     }
-    return Verdicts(claims).by_photo()
+    return Verdicts(claims, overlaps=overlaps).by_photo()
 
 
 def test_of_photos_that_show_a_part_of_a_scan_differently_the_one_that_is_clearly_better_colors_it():
@@ -138,6 +151,12 @@ def test_of_photos_that_differ_and_are_equally_good_that_one_is_taken_which_anot
     assert not any(own.shown for own in on_the_hall(a=(60.0, HALL), b=(50.0, CELLAR)).values())
     found = on_the_hall(a=(50.0, HALL), b=(60.0, CELLAR), c=(45.0, HALL_AGAIN))
     assert found["a"].shown == found["c"].shown == ("hall",) and not found["b"].shown
+
+
+def test_photos_that_overlap_do_not_speak_for_each_other_because_they_make_the_same_mistake():
+    photos = {"a": (50.0, HALL), "b": (60.0, CELLAR), "c": (45.0, HALL_AGAIN)}
+    for overlaps in ({"a": ["c"]}, {"c": ["a"]}):
+        assert not any(own.shown for own in on_the_hall(overlaps, **photos).values())
 
 
 def test_poses_tell_whether_scans_that_see_different_parts_are_of_one_place():

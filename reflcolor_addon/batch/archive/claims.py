@@ -37,7 +37,7 @@ class Claim:
     scan: str = ""
     verified: bool
     strength: float
-    evidence: float = 0.0
+    evidence: float
     by_hand: bool = False
     looked: float = 0.0
     repeats: bool = False
@@ -46,6 +46,14 @@ class Claim:
     camera: list | None = None
     picture: str | None = None
     helpers: tuple[str, ...] = ()
+
+    @property
+    def weight(self):
+        """How much speaks for it beside other claims: its strength, and how far that exceeds what is needed there.
+
+        Where the walls of a room repeat themselves, wrong cameras are strong as well; but much is needed there.
+        """
+        return self.strength * self.evidence
 
     @classmethod
     def of(cls, item, photo, pairs, by_hand=False, looked=0.0, helpers=()):

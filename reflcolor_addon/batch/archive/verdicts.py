@@ -7,8 +7,7 @@ from .claims import Verdict
 from .places import ALIKE, agreement, same_place, unlike
 
 CLEARLY = 1.5
-"""Of two claims that contradict each other, that one is right for which so many times as much speaks. In the archive of
-``python -m benchmarks.archive`` right ones had 1.8 to 10 times as much as wrong ones."""
+"""Of two claims that contradict each other, that one is right for which so many times as much speaks."""
 # A photo is placed where so much speaks for it, and another photo agrees or its evidence is so high. The test is made
 # for one try: with nine, the best of what chance gives lies 2.8 deviations above its mean, not 2, which asks for more.
 _PLACED, _SURE = 25.0, 1.15
@@ -35,8 +34,9 @@ class Verdicts:
         self._of_photo = {claim: own for own in claims.values() for claim in own}
         self._path_of = {claim: path for path, own in claims.items() for claim in own}
         self._verified = [claim for own in claims.values() for claim in own if claim.verified]
-        # Whatever contradicts a claim, for each; and what speaks for it, together with the best photo that agrees.
-        self._rivals, self._weights = defaultdict(list), {claim: claim.strength for claim in self._verified}
+        # Whatever contradicts a claim, for each; and what speaks for it, together with the best photo that agrees. One
+        # that overlaps it does not count: it shows the same, and would make the same mistake.
+        self._rivals, self._weights = defaultdict(list), {claim: claim.weight for claim in self._verified}
         self._supported, self._of_one_place = set(), set()
         self._compare_photos()
         self._compare_places()
@@ -101,11 +101,17 @@ class Verdicts:
                     self._contradict(one, other)
                 elif found is not None and found >= ALIKE:
                     self._supported |= {one, other}
-                    best[one], best[other] = (
-                        max(best[claim], its.strength) for claim, its in ((one, other), (other, one))
-                    )
-        for claim, strength in best.items():
-            self._weights[claim] += strength
+                    if not self._overlap(one, other):
+                        best[one], best[other] = (
+                            max(best[claim], its.weight) for claim, its in ((one, other), (other, one))
+                        )
+        for claim, weight in best.items():
+            self._weights[claim] += weight
+
+    def _overlap(self, one, other):
+        """Whether the photos of two claims show partly the same."""
+        paths = self._path_of[one], self._path_of[other]
+        return any(its in self._overlaps.get(own, ()) for own, its in (paths, reversed(paths)))
 
     def _compare_places(self):
         """One photo on several items: they must be of one place."""
@@ -167,20 +173,18 @@ class Verdicts:
         return [
             other
             for other in self._of_photo[claim]
-            if not other.verified
-            and not other.repeats
-            and self._speaks_more(other, claim)
-            and not self._compared(claim, other, same_place)
+            if not other.verified and self._speaks_more(other, claim) and not self._compared(claim, other, same_place)
         ]
 
     def _speaks_more(self, other, claim):
-        """Whether more speaks for a claim than for one that was verified, in the match or in the second look."""
+        """Whether clearly more speaks for a claim than for one that was verified: in the match, in the second look, or
+        because another photo is there."""
         # Matching does not always end where the look saw most; but looks tell only where both places were looked at.
         looked = (other.looked, claim.looked) if other.looked and claim.looked else (0.0, 0.0)
-        if max(other.strength, looked[0]) > max(self._weights[claim], looked[1]):
+        if not other.repeats and max(other.strength, looked[0]) > CLEARLY * max(claim.strength, looked[1]):
             return True
         backed = self._backing(other, claim)
-        return backed > 0 and other.strength + backed >= CLEARLY * self._weights[claim]
+        return backed > 0 and other.weight + backed >= CLEARLY * self._weights[claim]
 
     def _backing(self, other, claim):
         """What speaks for another place because a photo that overlaps this one, and for which more speaks, shows it."""
@@ -188,7 +192,7 @@ class Verdicts:
             return 0.0
         # Claims for which less speaks were not decided on yet: what is refused later must not speak for anything.
         backing = (
-            its.strength
+            its.weight
             for path in self._overlaps.get(self._path_of[claim], ())
             for its in self._claims.get(path, ())
             if its in self._shown and its.item == other.item and claim.item not in self._partners.get(its.picture, ())
