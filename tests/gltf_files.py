@@ -7,6 +7,7 @@ import struct
 import subprocess
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -62,6 +63,11 @@ class Glb:
         """The bytes of a buffer view."""
         view = self.document["bufferViews"][index]
         return self._binary[view["byteOffset"] : view["byteOffset"] + view["byteLength"]]
+
+    def image(self, index=0):
+        """(rows, columns, 3) uint8 of an embedded image."""
+        data = self.bytes_of(self.document["images"][index]["bufferView"])
+        return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)[..., ::-1]
 
     def primitive(self, node=0, mode=4):
         """The primitive of a node's mesh that draws triangles (4) or points (0); None where there is none."""

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from archives import HEAD, damage_points, make_archive, table_of
+from gltf_files import Glb
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds, Settings, read_scans
@@ -16,13 +17,15 @@ from reflcolor_addon.batch.archive.estimate import estimate
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.batch.archive.options import Options
-from reflcolor_addon.batch.plan import IMAGE, Output, Plan
+from reflcolor_addon.batch.pipeline import run_plan
+from reflcolor_addon.batch.plan import IMAGE, MESH, Output, Plan
 from reflcolor_addon.batch.plan_document import as_document, from_document
 from reflcolor_addon.batch.read import safe_label
 from reflcolor_addon.batch.session import Session
 from reflcolor_addon.cli.main import main
 from reflcolor_addon.cli.verbs.batch import _plain_lines
-from reflcolor_addon.files.images import write_jpeg, write_png
+from reflcolor_addon.errors import ScanError
+from reflcolor_addon.files.images import read_image, write_jpeg, write_png
 from reflcolor_addon.files.memory import readable
 from reflcolor_addon.files.readers.options import ReadOptions
 from reflcolor_addon.files.writers import write_ptx
@@ -202,6 +205,57 @@ def test_a_scan_that_no_photo_shows_any_more_is_told_so(archive, batch):
     folder.remember("items", "hall_1", {"outcome": "unshown", "error": "", "left_out": ["hall_1"]})
     assert main(["report", "colored"]) == 0
     assert table_of(archive)["hall_1"]["state"] == "unshown"
+
+
+def test_what_was_colored_earlier_is_deleted_where_no_photo_shows_the_scan_any_more(archive, batch):
+    batch()
+    results = archive / "colored"
+    (results / "hall_1.png").write_bytes(b"painted over by hand")
+    write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
+    status, out, _ = batch("--resume")
+    assert status == 0 and "2 without a certain photo" in out
+    assert "hall_0: deleted what an earlier run had colored" in out
+    left = {
+        path.relative_to(results).as_posix() for path in results.rglob("hall_[01]*") if "batch-state" not in path.parts
+    }
+    # What was changed by hand stays.
+    assert {name for name in left if not name.startswith("logs/")} == {
+        "hall_1.png",
+        "reports/hall_0.jpg",
+        "reports/hall_1.jpg",
+    }
+    # Another scan of the batch is not touched.
+    assert (results / "hall_2.png").is_file()
+
+
+def test_names_in_the_table_of_pairs_that_the_batch_does_not_have_are_told(archive, batch):
+    write_png(archive / "a b.png", np.zeros((40, 60, 3), np.uint8))
+    text = HEAD + 'pairs = "mine.csv"\nscans = "hall_0.ptx"\nphotos = "*.png"\n'
+    (archive / "batch.toml").write_text(text, encoding="utf-8")
+    rows = "".join(f"other {number},a b.png,no\n" for number in range(5))
+    (archive / "mine.csv").write_text(f"scan,photo,shows\nhal_0,a b.png,yes\nhall_0,a_b.png,yes\n{rows}")
+    status, _, err = batch("--check")
+    assert status == 0
+    assert "mine.csv: 'hal_0' is no scan of this batch" in err and "did you mean hall_0?" in err
+    assert "mine.csv: 2 more names are of no scan or photo" in err
+    (archive / "mine.csv").write_text("scan,photo,shows\nhall_0,a_b.png,yes\n")
+    assert "mine.csv: 'a_b.png' is no photo of this batch" in batch("--check")[2]
+
+
+def test_a_texture_of_each_scan(archive, batch):
+    text = (archive / "batch.toml").read_text(encoding="utf-8")
+    (archive / "batch.toml").write_text(text.replace("write =", "texture = 64\nwrite ="), encoding="utf-8")
+    assert batch()[0] == 0
+    made = read_image(archive / "colored" / "hall_0.png")
+    assert max(made.shape) == 64
+    # A picture is rendered from it, with the same image on the mesh.
+    colors = Output("-o", Path("again.glb"), MESH)
+    plan = {"scans": (Path("hall_0.ptx"),), "outputs": (colors,), "colors": Path("colored/hall_0.png")}
+    run_plan(Plan(**plan, texture=64), Session())
+    np.testing.assert_array_equal(Glb("again.glb").image(), made)
+    with pytest.raises(ScanError, match="expected 16 x 12"):
+        run_plan(Plan(**plan), Session())
 
 
 def test_seeds_of_each_scan_of_a_file_count_for_what_was_done(archive, batch):

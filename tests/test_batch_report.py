@@ -40,6 +40,11 @@ def test_the_table_of_pairs_survives_a_spreadsheet(tmp_path):
     edited = "\r\n".join(";".join(f'"{cell}"' for cell in row) for row in rows)
     path.write_bytes(b"\xef\xbb\xbf" + edited.encode("utf-8"))
     assert read_pairs(path) == known
+    path.write_text("scan,photo,shows\na,b,not tried\na,c,\na,d,CONTRADICTION\n")
+    assert read_pairs(path) == {}
+    path.write_text("scan,photo,shows\na,b,yes\na,c,ja\n")
+    with pytest.raises(UsageError, match=r"pairs\.csv: line 3: shows 'ja': expected yes or no"):
+        read_pairs(path)
     path.write_text("scan,photo\na,b\n")
     with pytest.raises(UsageError, match="expected the columns " + ", ".join(COLUMNS[:3])):
         read_pairs(path)
@@ -137,6 +142,21 @@ def test_what_a_person_said_of_a_pair_stays_in_the_table_of_pairs(archive, batch
         rows = {row["scan"]: (row["shows"], row["note"]) for row in csv.DictReader(file)}
     assert rows["hall_0"][0] == "cannot be tested"
     assert rows["hall_1"] == ("no", "as mine.csv says")
+
+
+def test_a_pair_that_is_refused_later_is_gone_from_the_table_and_the_report(archive, batch):
+    write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
+    text = HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n'
+    (archive / "batch.toml").write_text(text, encoding="utf-8")
+    assert batch()[0] == 0
+    write_pairs(archive / "mine.csv", [("hall_1", "a.png", "no", "", "")])
+    (archive / "batch.toml").write_text(text + 'pairs = "mine.csv"\n', encoding="utf-8")
+    status, out, _ = batch("--resume")
+    assert status == 0 and "2 without a certain photo" in out
+    with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row["scan"]: (row["shows"], row["note"]) for row in csv.DictReader(file)}
+    assert rows["hall_0"][0] == "cannot be tested" and rows["hall_1"] == ("no", "as mine.csv says")
+    assert [table_of(archive)[f"hall_{number}"]["photos"] for number in range(2)] == ["1", ""]
 
 
 def test_scans_whose_photo_seems_to_show_two_places_are_warned_of(archive, batch, contradiction):

@@ -49,7 +49,7 @@ def test_of_two_places_only_the_one_that_is_clearly_better_is_shown():
 def test_where_no_place_is_clearly_better_none_is_shown():
     found = verdict([claim("cellar", 58.0, CELLAR), claim("hall", 60.0, HALL)])
     assert found == Verdict(refused=("hall", "cellar"))
-    assert "write yes into pairs.csv" in str(found.warning("a.jpg"))
+    assert "write yes for the right scan into a copy of pairs.csv" in str(found.warning("a.jpg"))
     assert "none is clearly right" in found.doubt("hall")
 
 

@@ -13,7 +13,7 @@ from ..color.colorizer import colorize
 from ..errors import ScanError, SeedsError
 from ..files.images import read_image
 from ..files.memory import give_back
-from ..matching import grid_texture, match_site, shots_of, texture
+from ..matching import colors_of_texture, grid_texture, match_site, shots_of, texture, texture_shape
 from ..messages import Message, about_scan, value_of
 from ..progress import part
 from ..seeds.scan_colors import seeds_from_color
@@ -100,7 +100,7 @@ def _run_jobs(plan, jobs, times, session):
                     progress = part(session.progress, number, count, job.name)
                     colorize_job(job, plan.settings, progress=progress, cancelled=session.cancelled)
                 give_back()
-                if plan.texture:
+                if plan.texture and job.texture is None:
                     with timed(job.times, "texture"):
                         _add_texture(job, plan, progress, session.cancelled)
                 if plan.needs_light_mesh:
@@ -115,16 +115,19 @@ def _take_colors(jobs, plan):
     for job in jobs:
         path = filled(plan.colors, job.label)
         rgb, shape = read_image(path), job.scan.shape
-        if rgb.shape[:2] != shape:
+        expected = texture_shape(job.scan, plan.texture) if plan.texture else shape
+        if rgb.shape[:2] != expected:
             raise ScanError(
                 "{file}: has {width} x {height} pixels, expected {columns} x {rows} as the scan {scan} has",
                 file=path,
                 width=rgb.shape[1],
                 height=rgb.shape[0],
-                columns=shape[1],
-                rows=shape[0],
+                columns=expected[1],
+                rows=expected[0],
                 scan=job.name,
             )
+        if plan.texture:
+            job.texture, rgb = rgb, colors_of_texture(job.scan, rgb)
         job.seeds = Seeds(rows=[], cols=[], rgb=np.zeros((0, 3), np.uint8))
         job.colorization = Colorization(
             rgb=rgb,

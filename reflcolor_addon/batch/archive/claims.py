@@ -105,39 +105,39 @@ class Verdict:
         """Return what a person should know of it; None where nothing contradicts itself."""
         if not self.refused:
             return None
-        values = {"photo": photo, "refused": ", ".join(self.refused)}
+        how = Message("write yes for the right scan into a copy of pairs.csv, and name the copy in the manifest")
+        values = {"photo": photo, "refused": ", ".join(self.refused), "how": how}
         if self.shown:
             return Message(
-                "{photo}: seems to show {shown} and {refused}, but these are different places; only {shown} gets its "
-                "colors, because it is clearly the better one; if that is wrong, write yes into pairs.csv for the "
-                "right one",
+                "{photo}: seems to show {shown} and {refused}, but these do not seem to be one place; only {shown} "
+                "gets its colors, because it is clearly the better one; if that is wrong, {how}",
                 shown=", ".join(self.shown),
                 **values,
             )
         if self.against:
             return Message(
                 "{photo}: seems to show {refused}, but does not fit {photos}, which shows the same part of it, so it "
-                "gives no colors; if that is wrong, write yes into pairs.csv for the scan that it shows",
+                "gives no colors; if that is wrong, {how}",
                 photos=_names(self.against),
                 **values,
             )
         if self.unhelped:
             return Message(
                 "{photo}: was placed on {refused} by what it has in common with {photos}, which turned out not to show "
-                "it, so it gives no colors; if that is wrong, write yes into pairs.csv for the scan that it shows",
+                "it, so it gives no colors; if that is wrong, {how}",
                 photos=_names(self.unhelped),
                 **values,
             )
         if self.likelier:
             return Message(
                 "{photo}: seems to show {refused}, but more speaks for {likelier}, although not enough to be sure, so "
-                "it gives no colors; write yes into pairs.csv for the scan that it shows",
+                "it gives no colors; if you know it, {how}",
                 likelier=", ".join(self.likelier),
                 **values,
             )
         return Message(
-            "{photo}: seems to show {refused}, but these are different places, and none is clearly right, so it "
-            "gives no colors; write yes into pairs.csv for the one that it shows",
+            "{photo}: seems to show {refused}, but these do not seem to be one place, and none is clearly right, so it "
+            "gives no colors; if you know it, {how}",
             **values,
         )
 
@@ -147,10 +147,10 @@ class Verdict:
         if not self.refused or item not in (*self.shown, *self.refused):
             return ""
         if item in self.shown:
-            text = "seems to show {others}, too, which is another place, but this one is clearly better"
+            text = "seems to show {others}, too, another place as it seems, but this one is clearly better"
             others = self.refused
         elif self.shown:
-            text = "gives no colors here: it shows {others}, which is another place and clearly better"
+            text = "gives no colors here: it shows {others}, which is clearly better, and another place as it seems"
             others = self.shown
         elif item in self.against:
             text = "gives no colors: it does not fit {others}, which shows the same part of the scan"
@@ -159,10 +159,10 @@ class Verdict:
             text = "gives no colors: {others}, by which it was placed, turned out not to show the scan"
             others = self.unhelped[item]
         elif self.likelier:
-            text = "gives no colors: more speaks for {others}, which is another place, but not enough to be sure"
+            text = "gives no colors: more speaks for {others}, another place as it seems, but not enough to be sure"
             others = self.likelier
         else:
-            text = "seems to show {others}, too, which is another place, and none is clearly right; it gives no colors"
+            text = "gives no colors: seems to show {others}, too, another place as it seems, and none is clearly right"
         return Message(text, others=", ".join(others))
 
 

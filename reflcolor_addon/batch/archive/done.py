@@ -79,6 +79,23 @@ class Done:
         except OSError as error:
             raise unwritable(path, error) from error
 
+    def outputs(self, name, stage):
+        """Return the outputs of an item, by their paths what is recorded of each; none where nothing is recorded."""
+        found = (self._folder.recall(KIND, f"{name} {stage}") or {}).get("outputs")
+        return found if isinstance(found, dict) else {}
+
+    def delete(self, outputs):
+        """Delete of recorded `outputs` those that are still as they were written; return their paths."""
+        deleted = []
+        for path, recorded in outputs.items():
+            if self._is_whole(path, recorded):
+                try:
+                    Path(path).unlink()
+                except OSError as error:
+                    raise unwritable(Path(path), error) from error
+                deleted.append(path)
+        return deleted
+
     def _output(self, path):
         return [*_state(Path(path)), self._fingerprints.of(path)]
 

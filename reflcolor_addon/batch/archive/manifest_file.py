@@ -14,7 +14,7 @@ from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, filled
 from .folder import BatchFolder
 from .manifest import Item, Manifest
 from .manifest_table import ManifestTable, last_value
-from .manifest_values import faces_of, reading_of, settings_of
+from .manifest_values import faces_of, reading_of, settings_of, texture_of
 from .names import item_names
 from .toml_lines import TomlLines
 
@@ -22,7 +22,7 @@ FORMAT, VERSION = "reflcolor-batch", 1
 _MOST_BYTES = 64 << 20
 _RESULTS = tuple(suffix.removeprefix(".") for suffix in RESULT_SUFFIXES)
 _OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
-_OF_EACH = ("write", "render", "faces", "preset", "settings", "reading", "seeds")
+_OF_EACH = ("write", "render", "texture", "faces", "preset", "settings", "reading", "seeds")
 _TABLES = ("settings", "reading")
 _OF_ONE = ("file", "name", "site", "scan", "photos", "hand", "skip")
 _OF_SITE = (*_OF_EACH, "photos", "hand")
@@ -212,6 +212,7 @@ class _Reader:
             settings=settings_of(chain),
             reading=reading_of(chain),
             outputs=outputs,
+            texture=texture_of(chain),
             faces=faces_of(chain),
         )
         return Item(name=name, plan=plan, offered=offered, line=self._lines.of(*place))

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 
 from ...errors import SettingsError, UsageError
 from ...files.readers.options import AS_IT_IS, with_option
+from ...matching import LARGEST
 from ...messages import Message
 from ...settings import DEFAULT_PRESET, PRESETS, SETTINGS
 from ...view.fewer_faces import FEWEST_FACES, MOST_FACES
@@ -17,17 +18,21 @@ from .manifest_table import last_value
 
 def faces_of(chain):
     """How many triangles a light mesh has at most; None where none is asked for."""
-    found = last_value(chain, "faces", int, None)
-    if found is None or FEWEST_FACES <= found <= MOST_FACES:
+    return _whole(chain, "faces", FEWEST_FACES, MOST_FACES)
+
+
+def texture_of(chain):
+    """How many texels an image of the photos' resolution has along its longer side; None where none is asked for."""
+    return _whole(chain, "texture", 1, LARGEST)
+
+
+def _whole(chain, key, least, most):
+    found = last_value(chain, key, int, None)
+    if found is None or least <= found <= most:
         return found
-    table = next(table for table in reversed(chain) if "faces" in table)
-    table.refuse(
-        "faces",
-        "faces {found}: expected a whole number from {least} to {most}",
-        found=found,
-        least=FEWEST_FACES,
-        most=MOST_FACES,
-    )
+    table = next(table for table in reversed(chain) if key in table)
+    template = "{key} {found}: expected a whole number from {least} to {most}"
+    table.refuse(key, template, key=key, found=found, least=least, most=most)
     return None
 
 

@@ -67,6 +67,8 @@ class State:
         What was found for each of its scans and the photos of the whole batch; see `match_stage.Matched.told`.
     photos : list of dict
         The same, with what was found while it was colorized; see `worker`.
+    refused : set of str
+        The paths of photos that do not show it, as a person says.
     same_as : str
         The item that it is a duplicate of.
     """
@@ -77,12 +79,14 @@ class State:
     left_out: list[str] = field(default_factory=list)
     matched: list[dict] = field(default_factory=list)
     photos: list[dict] = field(default_factory=list)
+    refused: set[str] = field(default_factory=set)
     same_as: str = ""
 
     def add_photos(self, found):
         """Keep what was found for photos while the item was colorized, beside what was found before."""
         known = {(pair["scan"], pair["path"]): pair for pair in self.matched}
-        own = {(pair["scan"], pair["path"]): pair for pair in found}
+        # What was found earlier may be of photos that a person has refused since.
+        own = {(pair["scan"], pair["path"]): pair for pair in found if pair["path"] not in self.refused}
         self.photos = [
             known.get(key, {}) | own.get(key, {}) | {"doubt": known.get(key, {}).get("doubt", "")}
             for key in {**known, **own}

@@ -2,17 +2,22 @@
 
 import csv
 import io
+from difflib import get_close_matches
 from pathlib import Path
 
 from ...errors import ReflcolorError, UsageError
 from ...files.atomic import written_atomically
 from ...files.gate import contents
+from ...messages import Message
 
 COLUMNS = ("scan", "photo", "shows", "evidence", "note")
 YES, NO, UNTESTED, UNTRIED = "yes", "no", "cannot be tested", "not tried"
 CONTRADICTION = "contradiction"
 """What the column ``shows`` holds; a contradiction is a photo that was verified, but shows another place."""
+_SHOWS = ("", YES, NO, UNTESTED, UNTRIED, CONTRADICTION)
 _MOST_BYTES = 1 << 28
+# More names that a batch does not have are only counted.
+_MOST_NAMES = 5
 
 
 def read_pairs(path):
@@ -22,7 +27,7 @@ def read_pairs(path):
     ----------
     path : Path
         A table with the columns ``scan`` (an item's name), ``photo`` (a path, as the manifest's folder sees it) and
-        ``shows`` ("yes", "no", or anything else for not known).
+        ``shows`` ("yes", "no", or for what is not known nothing, or what a batch wrote there).
 
     Returns
     -------
@@ -52,9 +57,46 @@ def read_pairs(path):
                 columns=", ".join(COLUMNS[:3]),
             )
         shows = row["shows"].strip().casefold()
+        if shows not in _SHOWS:
+            raise UsageError(
+                "{file}: line {line}: shows {found!r}: expected yes or no, or nothing where that is not known",
+                file=path,
+                line=table.line_num,
+                found=row["shows"],
+            )
         if shows in (YES, NO):
             known[row["scan"].strip(), row["photo"].strip()] = shows == YES
     return known
+
+
+def unknown_names(path, known, scans, photos):
+    """Yield a `Message` for names in a table of pairs that are of no scan or photo of the batch.
+
+    Parameters
+    ----------
+    path : Path
+        Of the table.
+    known : dict of (str, str) to bool
+        What it says.
+    scans, photos : collection of str
+        The names that the batch has.
+    """
+    missing = [(name, Message("no scan of this batch"), scans) for name in dict.fromkeys(scan for scan, _ in known)] + [
+        (name, Message("no photo of this batch"), photos) for name in dict.fromkeys(photo for _, photo in known)
+    ]
+    missing = [(name, what, names) for name, what, names in missing if name not in names]
+    for name, what, names in missing[:_MOST_NAMES]:
+        near = get_close_matches(name, names, 1)
+        hint = Message("; did you mean {name}?", name=near[0]) if near else ""
+        yield Message(
+            "{file}: {name!r} is {what}, so what is said of it has no effect{hint}",
+            file=path,
+            name=name,
+            what=what,
+            hint=hint,
+        )
+    if len(missing) > _MOST_NAMES:
+        yield Message("{file}: {count} more names are of no scan or photo", file=path, count=len(missing) - _MOST_NAMES)
 
 
 def _rows(table, path):

@@ -32,15 +32,13 @@ def write_table(context, matched):
         record = context.done.recall(item.name, COLOR)
         best = _best([*((record or {}).get("photos") or []), *matched.told(item.name)])
         for path, photo in photos.items():
-            pair = best.get(path)
-            if pair is not None:
+            pair, said = best.get(path), matched.said.get((item.name, path))
+            # Fed back once more, the table says the same: what a person says stays, whatever was found.
+            if pair is not None and said is not False:
                 shows, evidence, note = _said(pair, matched.verdicts.get(path), item.name)
-                # What a person says stays, even where the photo gives no colors.
-                shows = YES if matched.said.get((item.name, path)) else shows
-                rows.append((item.name, photo, shows, evidence, note))
-            elif (item.name, path) in matched.said:
-                # Fed back once more, the table says the same.
-                shows = YES if matched.said[item.name, path] else NO
+                rows.append((item.name, photo, YES if said else shows, evidence, note))
+            elif said is not None:
+                shows = YES if said else NO
                 rows.append((item.name, photo, shows, "", Message("as {file} says", file=manifest.pairs.name)))
             elif with_untried:
                 rows.append((item.name, photo, UNTRIED, "", _why_untried(context, item, path, matched)))

@@ -2,7 +2,8 @@
 
 import time
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 
 from ...errors import OutputError, ReflcolorError
 from ...failures import line_of
@@ -50,6 +51,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
                 return False
             piece.claim = claims.enter_context(claim)
             for later in STAGES[STAGES.index(stage) :]:
+                piece.outdated |= context.done.outputs(piece.state.item.name, later)
                 context.done.forget(piece.state.item.name, later)
         return True
 
@@ -78,6 +80,8 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             state.outcome = OPEN
         else:
             state.outcome, state.error = FAILED, outcome["error"]
+        if outcome["done"] and state.left_out:
+            _delete_outdated(context, piece, outcome["written"])
         remember_item(context, state)
         _write_log(task.log, outcome, _matched(context, state))
         context.session.say(_line(state, outcome, count, whole))
@@ -92,12 +96,40 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
 
 @dataclass(eq=False)
 class _Piece:
-    """An item in progress: its key, the number of tries, and the lock that keeps other batches away."""
+    """An item in progress: its key, the number of tries, what an earlier run has written for it, and the lock that
+    keeps other batches away.
+    """
 
     state: State
     key: str
     tries: int = 1
+    outdated: dict = field(default_factory=dict)
     claim: ExitStack | None = None
+
+
+def _delete_outdated(context, piece, written):
+    """Delete what an earlier run has colored from photos that turned out not to show an item, and say so."""
+    # The outputs of one scan of several begin with its own label.
+    beginnings = tuple(f"{label}{then}" for label in piece.state.left_out for then in (".", " render."))
+    outdated = {
+        path: recorded
+        for path, recorded in piece.outdated.items()
+        if path not in written and Path(path).name.startswith(beginnings)
+    }
+    try:
+        deleted = context.done.delete(outdated)
+    except OutputError as error:
+        context.session.warnings.append(error.message)
+        return
+    if deleted:
+        context.session.say(
+            Message(
+                "{name}: deleted what an earlier run had colored, because no photo shows it for certain any more: "
+                "{files}",
+                name=piece.state.item.name,
+                files=", ".join(Path(path).name for path in deleted),
+            )
+        )
 
 
 def _is_known(context, stage, state, key, since=None):

@@ -13,7 +13,7 @@ from ...batch.archive.check_files import check_files
 from ...batch.archive.estimate import estimate
 from ...batch.archive.manifest_file import load_manifest
 from ...batch.archive.options import DONE, DUPLICATE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, Options
-from ...batch.archive.pairs import read_pairs
+from ...batch.archive.pairs import read_pairs, unknown_names
 from ...batch.archive.run import run_batch
 from ...errors import Cancelled, OutputError, ReflcolorError, UsageError
 from ...files.memory import available_bytes
@@ -75,6 +75,7 @@ def run(arguments, session):
         options = _options(arguments, manifest)
         check_manifest(manifest, session.blender, faults.append)
         known = _known_pairs(manifest, faults.append)
+        _warn_of_names(manifest, known, session)
         items = options.chosen(manifest.items)
         costs = check_files(manifest, items, unusable.append, decode=arguments.check, progress=session.progress)
     for fault in (*faults, *unusable):
@@ -131,6 +132,14 @@ def _known_pairs(manifest, refuse):
     except UsageError as error:
         refuse(error)
         return {}
+
+
+def _warn_of_names(manifest, known, session):
+    """Tell which names in the table of pairs are misspelled, or of what is not part of the batch any more."""
+    scans = {item.name: None for item in manifest.items}
+    paths = [*manifest.photos, *(path for item in manifest.items for path in item.plan.photos)]
+    photos = dict.fromkeys(map(manifest.name_of, dict.fromkeys(paths)))
+    session.warnings += unknown_names(manifest.pairs, known, scans, photos)
 
 
 def _summary(arguments, faults, unusable):

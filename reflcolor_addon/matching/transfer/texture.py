@@ -117,6 +117,25 @@ def grid_texture(scan, rgb):
     return cv2.resize(image, (columns, rows), interpolation=cv2.INTER_AREA)
 
 
+def colors_of_texture(scan, image):
+    """Return the colors that an image of a scan's grid has at its pixels.
+
+    Parameters
+    ----------
+    scan : Scan
+    image : (rows, columns, 3) uint8
+        See `texture`.
+
+    Returns
+    -------
+    (H, W, 3) uint8
+    """
+    import cv2
+
+    smaller = image.shape[0] > scan.shape[0]
+    return cv2.resize(image, scan.shape[::-1], interpolation=cv2.INTER_AREA if smaller else cv2.INTER_LINEAR)
+
+
 class _Enlarged:
     """Images of a scan's grid at the size of a texture, strip by strip, interpolated between the pixels' middles."""
 
