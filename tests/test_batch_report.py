@@ -28,6 +28,7 @@ from reflcolor_addon.cli.main import main
 from reflcolor_addon.errors import UsageError
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
+from reflcolor_addon.report.archive_entries import photos_of
 
 
 def test_the_table_of_pairs_survives_a_spreadsheet(tmp_path):
@@ -171,6 +172,36 @@ def test_scans_whose_photo_seems_to_show_two_places_are_warned_of(archive, batch
     assert rows["hall_0"]["warnings"] == rows["hall_1"]["warnings"] == "1"
     assert "a.png: gives no colors here: it shows hall_0" in rows["hall_1"]["note"]
     assert "<p>Contradictions</p>" in (archive / "colored" / "report.html").read_text("utf-8")
+
+
+def test_the_report_says_which_photo_shows_which_scan(archive, batch, contradiction):
+    batch()
+    folder = BatchFolder(archive / "colored")
+    for name in ("hall_0", "hall_1"):
+        photos = [pair | {"photo": "a.png"} for pair in contradiction.told(name)]
+        folder.remember("items", name, {"outcome": "done", "error": "", "left_out": [], "photos": photos})
+    folder.remember("", "scans", {"scans": {}, "photos": ["a.png", "b <b>.png"]})
+    first, second = photos_of(archive / "colored")
+    assert (first["photo"], first["shows"], first["evidence"]) == ("a.png", ["hall_0"], "2.00")
+    assert "hall_1: gives no colors here: it shows hall_0" in first["note"]
+    assert (second["shows"], second["evidence"], second["note"]) == ([], "", "it was not tried; pairs.csv says why")
+    assert main(["report", "colored"]) == 0
+    page = (archive / "colored" / "report.html").read_text(encoding="utf-8")
+    table = page[page.index('<section id="photos">') :]
+    assert "1 of 2 show a scan for certain" in table and "b &lt;b&gt;.png" in table and 'href="#photos"' in page
+
+
+def test_a_damaged_scan_that_no_photo_shows_is_warned_of(archive, batch):
+    scan = (archive / "hall_0.ptx").read_text(encoding="utf-8").splitlines()
+    (archive / "hall_0.ptx").write_text("\n".join(scan[:-30]) + "\n", encoding="utf-8")
+    write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_0.ptx"\nphotos = "a.png"\n', encoding="utf-8")
+    status, out, _ = batch()
+    assert status == 0 and "does not show it for certain, 1 warning (see the report)" in out
+    for options in ((), ("--resume",)):
+        batch(*options)
+        row = table_of(archive)["hall_0"]
+        assert row["state"] == "unshown" and row["warnings"] == "1" and "cut short" in row["note"]
 
 
 def test_a_name_that_is_markup_is_shown_as_text(tmp_path, monkeypatch):

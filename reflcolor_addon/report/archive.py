@@ -14,7 +14,7 @@ from ..files.gate import contents
 from ..version import __version__
 from ..view.colormaps import UNKNOWN
 from ..view.preview import GUESS, INFERRED, OBSERVED
-from .archive_entries import COLUMNS, entries_of
+from .archive_entries import COLUMNS, entries_of, photos_of
 
 PAGE, TABLE = "report.html", "report.csv"
 # A browser is slow with more; then there are several pages.
@@ -70,7 +70,9 @@ def _write_pages(root, entries):
     names = [PAGE, *(_OTHER_PAGE.format(number=number) for number in range(2, len(parts) + 1))]
     for number, (name, part) in enumerate(zip(names, parts, strict=True)):
         with written_atomically(root / name) as temporary:
-            text = _page(root, entries, part, _ways(names, parts, number))
+            # What is told of photos stands on the first page.
+            photos = "" if number else _photos(photos_of(root))
+            text = _page(root, entries, part, _ways(names, parts, number), photos)
             temporary.write_text(text, encoding="utf-8", errors="xmlcharrefreplace")
     for path in root.iterdir():
         # Of an earlier time, when there were more.
@@ -103,7 +105,7 @@ def _scans(count):
     return "1 scan" if count == 1 else f"{count} scans"
 
 
-def _page(root, entries, part, ways):
+def _page(root, entries, part, ways, photos):
     template = Template(files(__package__).joinpath("page.html").read_text(encoding="utf-8"))
     count = {state: sum(entry["state"] == state for entry in entries) for state in _STATES}
     parts = [f"{number} {_STATES[state]}" for state, number in count.items() if number]
@@ -112,9 +114,35 @@ def _page(root, entries, part, ways):
         title=escape(f"Colorized scans in {root.absolute().name}"),
         summary=escape(f"{_scans(len(entries))}: {', '.join(parts)}." if entries else "No scan was worked on yet."),
         ways=ways,
+        photos=photos,
+        to_photos='<a href="#photos">Which photo shows which scan</a>' if photos else "",
         rows="\n".join(map(_row, part)),
         version=escape(__version__),
         **{name: "#{:02x}{:02x}{:02x}".format(*rgb) for name, rgb in colors.items()},
+    )
+
+
+def _photos(found):
+    """The table of photos; nothing where there are none."""
+    if not found:
+        return ""
+    used = sum(bool(photo["shows"]) for photo in found)
+    rows = []
+    for photo in found:
+        shows = escape(", ".join(photo["shows"])) or '<span class="soft">no scan for certain</span>'
+        cells = [
+            f'<th scope="row">{escape(photo["photo"])}</th>',
+            f'<td data-label="Shows">{shows}</td>',
+            _number("Evidence", photo["evidence"], photo["evidence"]),
+            f'<td data-label="Note">{escape(photo["note"])}</td>',
+        ]
+        rows.append(f"<tr>{''.join(cells)}</tr>")
+    heads = "".join(f'<th scope="col"><span>{name}</span></th>' for name in ("Photo", "Shows", "Evidence", "Note"))
+    return (
+        f'<section id="photos"><h2>Photos</h2><p class="soft">{used} of {len(found)} show a scan for certain. Evidence '
+        "of 1 or more is enough. The table pairs.csv beside this page holds every pair of a scan and a photo; to "
+        "correct it, edit a copy and name that in the manifest.</p>"
+        f"<table><thead><tr>{heads}</tr></thead><tbody>{chr(10).join(rows)}</tbody></table></section>"
     )
 
 
@@ -122,7 +150,6 @@ def _row(entry):
     states = [entry["state"], "warned" if entry["warnings"] else ""]
     states.append("done" if entry["state"] == "guessed" else "")
     colored = "" if entry["colored"] == "" else f"{entry['colored']:.1%}"
-    photos = "" if entry["photos"] == "" else f"{entry['verified_photos']} of {entry['photos']}"
     state = f'<span class="status {entry["state"]}">{escape(_STATES[entry["state"]])}</span>'
     cells = [
         f'<td data-label="">{_tiles(entry)}</td>',
@@ -131,7 +158,7 @@ def _row(entry):
         _number("Returns", entry["returns"], "" if entry["returns"] == "" else f"{entry['returns']:,}"),
         _number("Colored", entry["colored"], colored),
         _number("Confidence", entry["confidence"], str(entry["confidence"])),
-        _number("Photos", entry["verified_photos"], photos),
+        _number("Photos used", entry["verified_photos"], str(entry["verified_photos"])),
         _number("Warnings", entry["warnings"], str(entry["warnings"])),
         _number("Seconds", entry["seconds"], str(entry["seconds"])),
         f'<td data-label="Details">{_details_of(entry)}</td>',

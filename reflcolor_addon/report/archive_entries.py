@@ -87,6 +87,10 @@ def _uncolored(root, label, item):
         else "no photo was tried on it, so it has no colors; pairs.csv says why"
     )
     counts = {"photos": len(tried) or "", "verified_photos": 0 if tried else ""}
+    warnings = [str(line) for line in item.get("warnings") or []]
+    if warnings:
+        counts |= {"warnings": len(warnings), "details": "<p>Warnings</p>" + _list(warnings)}
+        note = "; ".join((note, *warnings))
     return _entry(label, "unshown", note=note, **counts, **_one_picture(root, label))
 
 
@@ -94,6 +98,44 @@ def _one_picture(root, label):
     """The preview of a scan without colors, where there is one."""
     preview = root / REPORTS / f"{label}.jpg"
     return {"preview": preview if preview.is_file() else None, "tiles": TILES[:1]}
+
+
+def photos_of(root):
+    """Return what the report of a batch shows of every photo, in the order of their names.
+
+    Parameters
+    ----------
+    root : Path
+        The batch's folder.
+
+    Returns
+    -------
+    list of dict
+        ``photo``, its name; ``shows``, the names of the scans that have its colors; ``evidence``, the most that was
+        found for it on one of these, or else on any scan, "" where it was not tried; and ``note``.
+    """
+    recorded = _read_item(root / STATE / f"{SCANS}.json").get("photos")
+    found = {str(name): [] for name in recorded} if isinstance(recorded, list) else {}
+    for item in _items(root).values():
+        for pair in _pairs(item):
+            found.setdefault(pair["photo"], []).append(pair)
+    return [_photo(name, found[name]) for name in sorted(found, key=str.casefold)]
+
+
+def _photo(name, pairs):
+    """What is told of one photo."""
+    # Scans with photos of their own have no verdict of the batch.
+    shown = [pair for pair in pairs if pair["verified"] and pair.get("shows", True)]
+    best = max(shown or pairs, key=lambda pair: pair["evidence"], default=None)
+    doubts = [f"{pair['scan']}: {pair['doubt']}" for pair in pairs if pair.get("doubt")]
+    if best is None:
+        doubts = ["it was not tried; pairs.csv says why"]
+    return {
+        "photo": name,
+        "shows": sorted({pair["scan"] for pair in shown}, key=str.casefold),
+        "evidence": "" if best is None else f"{best['evidence']:.2f}",
+        "note": "; ".join(doubts),
+    }
 
 
 def _pictured(root, name):

@@ -67,9 +67,10 @@ class Matched:
         """Return what was found for an item, for its record: one dictionary for each scan and photo."""
         found = []
         for path, pairs in self.pairs.get(name, {}).items():
-            doubt = str(self.verdicts.get(path, Verdict()).doubt(name))
+            verdict = self.verdicts.get(path, Verdict())
+            said = {"path": path, "doubt": str(verdict.doubt(name)), "shows": name in verdict.shown}
             kept = ("scan", "verified", "tested", "evidence", "note")
-            found += [{key: pair[key] for key in kept} | {"path": path, "doubt": doubt} for pair in pairs]
+            found += [{key: pair[key] for key in kept} | said for pair in pairs]
         return found
 
 

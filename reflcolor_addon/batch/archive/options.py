@@ -69,6 +69,8 @@ class State:
         The same, with what was found while it was colorized; see `worker`.
     refused : set of str
         The paths of photos that do not show it, as a person says.
+    warnings : list of str
+        What its work had to say.
     same_as : str
         The item that it is a duplicate of.
     """
@@ -80,6 +82,7 @@ class State:
     matched: list[dict] = field(default_factory=list)
     photos: list[dict] = field(default_factory=list)
     refused: set[str] = field(default_factory=set)
+    warnings: list[str] = field(default_factory=list)
     same_as: str = ""
 
     def add_photos(self, found):

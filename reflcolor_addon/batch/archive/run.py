@@ -123,10 +123,11 @@ def _unusable(context, item):
 
 
 def _remember_scans(context):
-    """Record which scans the batch has, so that its report names those, too, that were not begun."""
+    """Record which scans and photos the batch has, so that its report names those, too, that nothing was done with."""
     name_of = context.manifest.name_of
     scans = {item.name: [name_of(path) for path in item.plan.scans] for item in context.manifest.items}
-    context.folder.remember("", SCANS, {"scans": scans})
+    photos = [name_of(path) for path in context.manifest.photos]
+    context.folder.remember("", SCANS, {"scans": scans, "photos": photos})
 
 
 def _report_duplicates(context):

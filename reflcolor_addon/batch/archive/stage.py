@@ -74,6 +74,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             return False
         count += 1
         state.left_out = outcome.get("left_out") or state.left_out
+        state.warnings = outcome.get("warnings") or []
         if outcome["done"]:
             state.outcome = DONE if outcome["written"] or not state.left_out else UNSHOWN
         elif outcome.get("cancelled"):
@@ -137,6 +138,7 @@ def _is_known(context, stage, state, key, since=None):
     record = context.done.recall(state.item.name, stage, key, since)
     if record is not None:
         state.outcome, state.left_out = KNOWN, record["left_out"] or []
+        state.warnings = record["warnings"] or []
         state.add_photos(record["photos"] or [])
     return record is not None
 
@@ -165,7 +167,7 @@ def remember_item(context, state):
     """Record the outcome of an item, for the report of the whole batch; if that fails, the others go on."""
     photos = [pair | {"photo": context.manifest.name_of(pair["path"])} for pair in state.photos]
     document = {"outcome": state.outcome, "error": state.error, "left_out": state.left_out}
-    document |= {"photos": photos, "same_as": state.same_as}
+    document |= {"photos": photos, "same_as": state.same_as, "warnings": state.warnings}
     try:
         context.folder.remember(ITEMS, state.item.name, document)
     except OutputError as error:
@@ -187,6 +189,9 @@ def _line(state, outcome, count, whole):
         FAILED: Message("failed: {problem}", problem=_bare(state.error)),
         OPEN: Message("interrupted"),
     }[state.outcome]
+    if state.warnings:
+        warned = Message("1 warning") if len(state.warnings) == 1 else Message("{n} warnings", n=len(state.warnings))
+        said = Message("{said}, {warned} (see the report)", said=said, warned=warned)
     return Message("{name}: {said} ({count} of {whole})", name=state.item.name, said=said, count=count, whole=whole)
 
 
