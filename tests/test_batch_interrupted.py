@@ -292,7 +292,7 @@ def test_what_was_known_before_tells_nothing_of_the_time_left(monkeypatch):
     )
     tasks = [Task(name=name, request={}) for name in ("known 1", "known 2", "known 3", "new 1", "new 2")]
     Context.work(context, tasks, lambda task, outcome: None, "Looked at")
-    assert said[0] == "Looked at 4 of 5; 10 s left"
+    assert said[0] == "Looked at 4 of 5; 10 s left of this step"
 
 
 def test_looks_and_matches_that_were_kept_count_as_no_work(archive):

@@ -1,6 +1,7 @@
 """The manifest of a batch: what it means, and that everything wrong with it is named at once."""
 
 import re
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from archives import HEAD, make_archive
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds
+from reflcolor_addon.batch.archive import manifest_file
 from reflcolor_addon.batch.archive.check import check_manifest
 from reflcolor_addon.batch.archive.draft import draft
 from reflcolor_addon.batch.archive.manifest_file import load_manifest
@@ -199,6 +201,23 @@ def test_what_cannot_be_worked_on(folder, text, expected):
     assert any(expected in fault for fault in faults), faults
 
 
+def test_what_is_wrong_for_all_scans_is_said_once_and_where_it_belongs(folder):
+    text = (
+        HEAD
+        + 'scans = "*.ptx"\nphotos = "photos/a.png"\npreset = "Best"\n'
+        + 'settings = { texture = 5 }\nsites = 1\nhand = "a"\n'
+    )
+    _, faults = read(folder, text)
+    assert [fault.partition(": ")[2] for fault in faults] == [
+        "unknown key 'sites'",
+        "hand: is said of one scan; write it below a [[scan]] with its file",
+        "preset 'Best': expected one of Natural, Enhanced, Paper",
+        "unknown setting 'texture'",
+    ]
+    _, (fault,) = read(folder, HEAD + 'photos = "photos\\*.png"\n')
+    assert fault.startswith("is not TOML") and fault.endswith("; write / between folders")
+
+
 def test_a_table_of_pairs_that_is_none_is_refused_in_one_line(tmp_path):
     (tmp_path / "pairs.csv").write_text(f'scan,photo,shows\nhall,"{"x" * 200_000}",yes\n')
     with pytest.raises(UsageError, match=r"pairs\.csv: line 2: is no table") as caught:
@@ -229,6 +248,26 @@ def test_a_draft_names_every_scan_and_photo_and_is_a_manifest_without_faults(fol
     assert [item.plan.scans[0].name for item in manifest.items] == ["hall_0.ptx", "hall_1.ptx", "hall_2.ptx"]
     assert all(item.plan.seeds is not None for item in manifest.items)
     assert {path.name for path in manifest.photos} == {"a.png", "b.png", "dach.png"}
+
+
+def test_a_draft_lists_what_else_may_be_said_and_that_works(folder):
+    (folder / "batch.toml").unlink()
+    lines = draft(folder, folder / "batch.toml").splitlines()
+    said = [line.removeprefix("# ") for line in lines if re.match(r"# (texture|preset|settings|reading) = ", line)]
+    assert len(said) == 4
+    text = "\n".join(line for line in lines if not line.startswith("#"))
+    manifest, faults = read(folder, text.replace("render = false", "\n".join(["render = false", *said])))
+    assert all("needs Blender" in fault or "grid" in fault for fault in faults)
+    assert {item.plan.texture for item in manifest.items} == {4096}
+
+
+def test_the_page_on_manifests_lists_every_key():
+    page = (Path(__file__).resolve().parent.parent / "docs" / "manifest.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (.*?) \|", page, re.MULTILINE))))
+    keys = {*manifest_file._OF_ALL, *manifest_file._OF_EACH, *manifest_file._OF_ONE}
+    assert listed - {"key"} == keys
+    example = tomllib.loads(page.split("```toml")[1].split("```")[0])
+    assert {*example, *(key for table in example["scan"] for key in table)} <= {*keys, "scan"}
 
 
 def test_a_draft_leaves_out_images_that_belong_to_a_scan_and_results_of_a_batch(folder):

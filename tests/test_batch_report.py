@@ -100,7 +100,7 @@ def contradiction(archive):
     found = {"verified": True, "tested": True, "evidence": 2.0, "note": "verified: 9 of 10 parts", "camera": None}
     found |= {"repeats": False, "brightness": None, "picture": None, "by_others": False}
     path = str(archive / "a.png")
-    matched = Matched(pairs=defaultdict(dict))
+    matched = Matched(pairs=defaultdict(dict), decided=True)
     claims = []
     for name, strength in (("hall_0", 60.0), ("hall_1", 20.0)):
         pair = found | {"scan": name, "strength": strength, "reflectance": behind[name]}
@@ -130,6 +130,9 @@ def test_a_photo_of_two_places_is_a_contradiction_in_the_table_of_pairs(archive,
     assert "clearly better" in rows["hall_0"]["note"] and "it shows hall_0" in rows["hall_1"]["note"]
     # Fed back as it is, it decides nothing that was not decided before.
     assert read_pairs(archive / "colored" / "pairs.csv") == {("hall_0", "a.png"): True}
+    write_table(context, replace(contradiction, decided=False))
+    assert read_pairs(archive / "colored" / "pairs.csv") == {}
+    assert "not compared with what other photos and scans show yet" in (archive / "colored" / "pairs.csv").read_text()
 
 
 def test_what_a_person_said_of_a_pair_stays_in_the_table_of_pairs(archive, batch):

@@ -30,14 +30,32 @@ render = false
 # How scans are read: every second row and column of large ones (step); a grid laid over points that have none (grid).
 # reading = {{ step = 2, grid = "angle" }}
 
+# An image with the photos' own detail, of so many pixels along its longer side, instead of colors at the vertices.
+# texture = 4096
+
 # Light meshes, of so many triangles at most for each scan; needs Blender.
 # faces = 200000
+
+# Natural, Enhanced or Paper; and single settings.
+# preset = "Natural"
+# settings = {{ tone = 1.2 }}
+
+# After a run: a corrected copy of pairs.csv, which says which photo shows which scan.
+# pairs = "pairs-corrected.csv"
 """
 _SCANS = "\n# The scans.\nscans = [\n{lines}]\n"
 _PHOTOS = """
 # Photos. Which of them shows which scan is found out; the table pairs.csv in the output folder tells it afterwards.
 photos = [
 {lines}]
+"""
+_ONE_SCAN = """
+# What counts for one scan, or for the scans of a site, which are colored together: docs/manifest.md lists all keys.
+# [[scan]]
+# file = {file}
+# site = "hall"
+# photos = ["of the hall/*.jpg"]
+# hand = "picked pairs.json"
 """
 _SEEDS = "\n# Seeds that lie beside their scan are used as they are.\n"
 _ONE = """\
@@ -103,7 +121,7 @@ def draft(folder, path):
         text += _PHOTOS.format(lines=patterns(photos))
     seeds = {scan: _seeds_of(scan) for scan in scans}
     tables = [_ONE.format(file=named(scan), seeds=named(own)) for scan, own in seeds.items() if own is not None]
-    return text + (_SEEDS + "\n".join(tables) if tables else "")
+    return text + _ONE_SCAN.format(file=named(scans[0])) + (_SEEDS + "\n".join(tables) if tables else "")
 
 
 def _files(folder):

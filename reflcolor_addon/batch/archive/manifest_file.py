@@ -9,6 +9,7 @@ from pathlib import Path
 from ...errors import UsageError
 from ...files.gate import contents
 from ...files.images import IMAGE_SUFFIXES
+from ...messages import Message
 from ..paths import files_of_each
 from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, filled
 from .folder import BatchFolder
@@ -53,7 +54,8 @@ def load_manifest(path, refuse):
         refuse(UsageError("{file}: line {line}: is not UTF-8; save it as UTF-8", file=path, line=line))
         return None
     except (ValueError, RecursionError) as error:  # not TOML, or numbers of thousands of digits
-        refuse(UsageError("{file}: is not TOML: {reason}", file=path, reason=str(error)))
+        hint = Message("; write / between folders") if "\\" in str(error) else ""
+        refuse(UsageError("{file}: is not TOML: {reason}{hint}", file=path, reason=str(error), hint=hint))
         return None
     return _Reader(path, document, TomlLines(text), refuse).manifest()
 
@@ -63,15 +65,18 @@ class _Reader:
         self._path, self._lines, self._refuse = path, lines, refuse
         self._whole = ManifestTable(document, (), self)
         self._folder = None
-        self._photo_lines = {}
+        self._photo_lines, self._said = {}, set()
 
     def refuse_at(self, at, template, /, **values):
-        line = self._lines.of(*at)
-        self._refuse(UsageError("{file}: line {line}: " + template, file=self._path, line=line, **values))
+        error = UsageError("{file}: line {line}: " + template, file=self._path, line=self._lines.of(*at), **values)
+        # What is wrong for all scans is said once.
+        if str(error) not in self._said:
+            self._said.add(str(error))
+            self._refuse(error)
 
     def manifest(self):
         whole = self._whole
-        whole.known((*_OF_ALL, *_OF_EACH, "scan"))
+        whole.known((*_OF_ALL, *_OF_EACH, "scan"), _OF_ONE)
         found = whole.get("format", str, ""), whole.get("version", int, 0)
         if found != (FORMAT, VERSION):
             whole.refuse(

@@ -4,6 +4,9 @@ from difflib import get_close_matches
 
 from ...messages import Message
 
+# How alike a name must be to what was meant.
+_ALIKE = 0.7
+
 
 class ManifestTable:
     """A table of the manifest: its values by name, of the right type; what is wrong is said with its line."""
@@ -11,11 +14,13 @@ class ManifestTable:
     def __init__(self, values, at, reader):
         self._values, self.at, self._reader = values, at, reader
 
-    def known(self, names):
-        """Refuse every key that is none of these."""
+    def known(self, names, of_one=()):
+        """Refuse every key that is none of these; ``of_one`` are keys of a table for one scan."""
         for name in self._values:
-            if name not in names:
-                near = get_close_matches(name, names, 1)
+            if name in of_one and name not in names:
+                self.refuse(name, "{key}: is said of one scan; write it below a [[scan]] with its file", key=name)
+            elif name not in names:
+                near = get_close_matches(name, names, 1, _ALIKE)
                 hint = Message("; did you mean {name}?", name=near[0]) if near else ""
                 self.refuse(name, "unknown key {key!r}{hint}", key=name, hint=hint)
 

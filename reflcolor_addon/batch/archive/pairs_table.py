@@ -35,7 +35,7 @@ def write_table(context, matched):
             pair, said = best.get(path), matched.said.get((item.name, path))
             # Fed back once more, the table says the same: what a person says stays, whatever was found.
             if pair is not None and said is not False:
-                shows, evidence, note = _said(pair, matched.verdicts.get(path), item.name)
+                shows, evidence, note = _said(pair, matched.verdicts.get(path), item.name, matched.decided)
                 rows.append((item.name, photo, YES if said else shows, evidence, note))
             elif said is not None:
                 shows = YES if said else NO
@@ -55,8 +55,12 @@ def write_table(context, matched):
         )
 
 
-def _said(pair, verdict, name):
+def _said(pair, verdict, name, decided):
     """Whether a photo shows an item, the evidence, and a note."""
+    if pair["verified"] and not decided:
+        # Fed back as it is, it must not decide anything.
+        note = Message("{note}; not compared with what other photos and scans show yet", note=pair["note"])
+        return "", f"{pair['evidence']:.2f}", note
     shows = YES if pair["verified"] else NO if pair["tested"] else UNTESTED
     if verdict is not None and pair["verified"] and name in verdict.refused:
         shows = CONTRADICTION

@@ -32,7 +32,7 @@ class TimeLeft:
         share = self.share(running)
         if share < 0.01:
             return ""
-        return f"{duration((time.monotonic() - self._start) * (1 - share) / share)} left"
+        return f"{duration((time.monotonic() - self._start) * (1 - share) / share)} left of this step"
 
 
 def duration(seconds):

@@ -185,7 +185,7 @@ def fail(context, state, problem):
 def _line(state, outcome, count, whole):
     said = {
         DONE: Message("done in {seconds:.0f} s", seconds=outcome.get("seconds", 0)),
-        UNSHOWN: _unshown(len({pair["path"] for pair in state.photos})),
+        UNSHOWN: _unshown(state.photos),
         FAILED: Message("failed: {problem}", problem=_bare(state.error)),
         OPEN: Message("interrupted"),
     }[state.outcome]
@@ -195,7 +195,10 @@ def _line(state, outcome, count, whole):
     return Message("{name}: {said} ({count} of {whole})", name=state.item.name, said=said, count=count, whole=whole)
 
 
-def _unshown(tried):
+def _unshown(photos):
+    tried = len({pair["path"] for pair in photos})
+    if any(pair["verified"] for pair in photos):
+        return Message("a photo seems to show it, but other things contradict that; the report says more")
     if tried == 0:
         return Message("no photo was tried on it; pairs.csv says why")
     if tried == 1:

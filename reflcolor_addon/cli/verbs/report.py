@@ -20,6 +20,8 @@ def add_arguments(parser):
 
 def run(arguments, session):
     """Merge the reports of a batch into report.html, which any browser opens from the disk, and report.csv."""
+    if not arguments.input.is_dir():
+        raise UsageError("{folder}: there is no such folder", folder=arguments.input)
     if not (arguments.input / REPORTS).is_dir():
         raise UsageError(
             "{folder}: is not the output folder of a batch: it has no folder reports", folder=arguments.input
