@@ -71,7 +71,9 @@ def test_a_scan_without_colors_has_its_reflectance_and_the_photos_that_were_trie
     (archive / "batch.toml").write_text(HEAD + 'scans = "hall_0.ptx"\nphotos = "?.png"\n', encoding="utf-8")
     assert batch()[0] == 0
     page = (archive / "colored" / "report.html").read_text(encoding="utf-8")
-    assert page.count("data:image/jpeg;base64,") == 1 and 'aria-label="hall_0, before"' in page
+    scans, photos = page.split('<section id="photos">')
+    assert scans.count("data:image/jpeg;base64,") == 1 and 'aria-label="hall_0, before"' in scans
+    assert photos.count("data:image/jpeg;base64,") == 2
     assert 'aria-label="hall_0, after"' not in page
     assert page.count("(evidence ") == 2 and "a.png: " in page and "b.png: " in page
     assert page.count("four to six pairs") == 1
@@ -191,6 +193,14 @@ def test_the_report_says_which_photo_shows_which_scan(archive, batch, contradict
     assert main(["report", "colored"]) == 0
     page = (archive / "colored" / "report.html").read_text(encoding="utf-8")
     table = page[page.index('<section id="photos">') :]
+    assert "<img" not in table
+    small = np.full((300, 400, 3), 90, np.uint8)
+    write_png(folder.sketch("abc"), small)
+    folder.remember("", "photos", {"small": {"a.png": "abc.png", "b <b>.png": "../../../gone.png"}})
+    assert main(["report", "colored"]) == 0
+    page = (archive / "colored" / "report.html").read_text(encoding="utf-8")
+    table = page[page.index('<section id="photos">') :]
+    assert table.count('<img alt="" width="128" height="96" src="data:image/jpeg;base64,') == table.count("<img") == 1
     assert "1 of 2 show a scan for certain" in table and "b &lt;b&gt;.png" in table and 'href="#photos"' in page
 
 

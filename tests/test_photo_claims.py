@@ -7,7 +7,14 @@ import numpy as np
 
 from reflcolor_addon import Scan
 from reflcolor_addon.batch.archive.claims import Claim, Verdict
-from reflcolor_addon.batch.archive.places import Cells, agreement, brightness_seen, camera_place, reflectance_seen
+from reflcolor_addon.batch.archive.places import (
+    Cells,
+    agreement,
+    alike,
+    brightness_seen,
+    camera_place,
+    reflectance_seen,
+)
 from reflcolor_addon.batch.archive.tries import MOST_SCANS, Tries
 from reflcolor_addon.batch.archive.verdicts import Verdicts
 from reflcolor_addon.matching.models import Camera
@@ -63,6 +70,27 @@ def test_what_exceeds_the_evidence_needed_counts_for_more_than_what_barely_has_i
 def test_scans_that_measured_the_same_reflectance_behind_a_photo_may_all_be_shown():
     both = [claim("hall", 60.0, HALL), claim("hall again", 25.0, HALL_AGAIN), claim("cellar", 30.0, CELLAR)]
     assert verdict(both) == Verdict(shown=("hall", "hall again"), refused=("cellar",))
+
+
+def columns_of(seen, first, last):
+    """What is seen in some columns of `cells` alone."""
+    index, values = np.array(seen.index), np.array(seen.values)
+    inside = (index % seen.across >= first) & (index % seen.across < last)
+    return Cells(seen.across, index[inside].tolist(), values[inside].tolist())
+
+
+def test_scans_that_see_different_parts_of_a_photo_may_all_be_shown():
+    left, middle, right = columns_of(HALL, 0, 11), columns_of(HALL_AGAIN, 7, 17), columns_of(HALL, 13, 24)
+    # Neighbors have four columns in common, the outer ones none.
+    assert alike(left, middle) and alike(middle, right) and not alike(left, right)
+    assert agreement(left, middle) is None
+    claims = [claim("left", 60.0, left), claim("middle", 55.0, middle), claim("right", 50.0, right)]
+    assert verdict(claims) == Verdict(shown=("left", "middle", "right"))
+    assert verdict([claims[0], claims[2]]) == Verdict(refused=("left", "right"))
+    # Of another place they are not alike there.
+    assert not alike(columns_of(CELLAR, 0, 11), middle)
+    # One column is too little to tell.
+    assert not alike(columns_of(HALL, 0, 8), columns_of(HALL, 7, 17))
 
 
 def test_a_photo_for_whose_other_place_more_speaks_shows_none_unless_it_would_fit_elsewhere_as_well():

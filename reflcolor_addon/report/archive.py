@@ -21,6 +21,8 @@ PAGE, TABLE = "report.html", "report.csv"
 _SCANS_ON_A_PAGE, _OTHER_PAGE = 1000, "report {number}.html"
 _IS_OTHER_PAGE = re.compile(r"report [1-9]\d*\.html")
 _LARGEST_PREVIEW = 1 << 22
+# Of more photos no pictures are shown: a browser would be slow.
+_MOST_SMALL, _SMALL_SIDE = 1000, 128
 _STATES = {
     "done": "colorized",
     "guessed": "colorized from guesses",
@@ -131,19 +133,42 @@ def _photos(found):
     for photo in found:
         shows = escape(", ".join(photo["shows"])) or '<span class="soft">no scan for certain</span>'
         cells = [
+            f'<td data-label="">{_small(photo["small"]) if len(found) <= _MOST_SMALL else ""}</td>',
             f'<th scope="row">{escape(photo["photo"])}</th>',
             f'<td data-label="Shows">{shows}</td>',
             _number("Evidence", photo["evidence"], photo["evidence"]),
             f'<td data-label="Note">{escape(photo["note"])}</td>',
         ]
         rows.append(f"<tr>{''.join(cells)}</tr>")
-    heads = "".join(f'<th scope="col"><span>{name}</span></th>' for name in ("Photo", "Shows", "Evidence", "Note"))
+    names = ("Picture", "Photo", "Shows", "Evidence", "Note")
+    heads = "".join(f'<th scope="col"><span>{name}</span></th>' for name in names)
     return (
         f'<section id="photos"><h2>Photos</h2><p class="soft">{used} of {len(found)} show a scan for certain. Evidence '
         "of 1 or more is enough. The table pairs.csv beside this page holds every pair of a scan and a photo; to "
         "correct it, edit a copy and name that in the manifest.</p>"
         f"<table><thead><tr>{heads}</tr></thead><tbody>{chr(10).join(rows)}</tbody></table></section>"
     )
+
+
+def _small(path):
+    """A photo, small, as an image; nothing where it cannot be read."""
+    try:
+        data = None if path is None else contents(path, "a picture", most=_LARGEST_PREVIEW)
+    except ReflcolorError:
+        data = None
+    if not data:
+        return ""
+    import cv2
+    import numpy as np
+
+    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+    if picture is None:
+        return ""
+    scale = _SMALL_SIDE / max(picture.shape[:2])
+    size = [max(1, round(side * scale)) for side in picture.shape[1::-1]]
+    picture = cv2.resize(picture, size, interpolation=cv2.INTER_AREA)
+    encoded = base64.b64encode(cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 75])[1]).decode("ascii")
+    return f'<img alt="" width="{size[0]}" height="{size[1]}" src="data:image/jpeg;base64,{encoded}">'
 
 
 def _row(entry):

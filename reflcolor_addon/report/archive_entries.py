@@ -1,6 +1,7 @@
 """What the report of a batch shows of every scan: from the reports, and from what the batch recorded."""
 
 from html import escape
+from pathlib import Path
 
 from ..errors import ReflcolorError
 from ..files.json_files import read_json
@@ -8,8 +9,9 @@ from ..messages import Message
 from ..view.preview import TILES
 from .provenance import outline, read_report
 
-REPORTS, STATE, ITEMS, SCANS = "reports", "batch-state", "items", "scans"
-"""Where a batch's folder holds the reports, its records, what became of the items, and which there are."""
+REPORTS, STATE, ITEMS, SCANS, PHOTOS, LOOKS = "reports", "batch-state", "items", "scans", "photos", "looks"
+"""Where a batch's folder holds the reports, its records, what became of the items, which there are, which photos, and
+these made small."""
 COLUMNS = (
     "scan",
     "file",
@@ -111,18 +113,21 @@ def photos_of(root):
     Returns
     -------
     list of dict
-        ``photo``, its name; ``shows``, the names of the scans that have its colors; ``evidence``, the most that was
-        found for it on one of these, or else on any scan, "" where it was not tried; and ``note``.
+        ``photo``, its name; ``small``, the path of a small picture of it, or None; ``shows``, the names of the scans
+        that have its colors; ``evidence``, the most that was found for it on one of these, or else on any scan, ""
+        where it was not tried; and ``note``.
     """
     recorded = _read_item(root / STATE / f"{SCANS}.json").get("photos")
     found = {str(name): [] for name in recorded} if isinstance(recorded, list) else {}
+    small = _read_item(root / STATE / f"{PHOTOS}.json").get("small")
     for item in _items(root).values():
         for pair in _pairs(item):
             found.setdefault(pair["photo"], []).append(pair)
-    return [_photo(name, found[name]) for name in sorted(found, key=str.casefold)]
+    places = {name: root / STATE / LOOKS / Path(file).name for name, file in small.items()} if small else {}
+    return [_photo(name, found[name], places.get(name)) for name in sorted(found, key=str.casefold)]
 
 
-def _photo(name, pairs):
+def _photo(name, pairs, small):
     """What is told of one photo."""
     # Scans with photos of their own have no verdict of the batch.
     shown = [pair for pair in pairs if pair["verified"] and pair.get("shows", True)]
@@ -132,6 +137,7 @@ def _photo(name, pairs):
         doubts = ["it was not tried; pairs.csv says why"]
     return {
         "photo": name,
+        "small": small,
         "shows": sorted({pair["scan"] for pair in shown}, key=str.casefold),
         "evidence": "" if best is None else f"{best['evidence']:.2f}",
         "note": "; ".join(doubts),

@@ -20,6 +20,9 @@ _LEAST_CHANGES = 250
 # From this correlation on both show the same; below the other they do not. In between nothing is said. In the archive
 # of ``python -m benchmarks.archive`` right pairs have 0.6 to 0.95, wrong ones -0.25 to 0.2.
 ALIKE, _UNLIKE = 0.5, 0.2
+# Scans that see different parts of a photo have fewer in common: from so many on they are of one place if they are
+# alike by more, by so many deviations of what chance gives.
+_LEAST_OF_SCANS, _MORE_DEVIATIONS = 50, 3.0
 # How far apart the cameras of one photo may be found, in the distance of what it shows, and how far turned.
 _BESIDE, _TURNED_DEG = 0.15, 8.0
 
@@ -131,15 +134,36 @@ def agreement(one, other):
     one, other : Cells
         Of the same photo, or of the same scan.
     """
+    found, count = _correlation(one, other)
+    return found if count >= _LEAST_CHANGES else None
+
+
+def alike(one, other):
+    """Whether two scans measured the same behind one photo.
+
+    Parameters
+    ----------
+    one, other : Cells or None
+        See `reflectance_seen`.
+    """
+    found, count = _correlation(one, other)
+    if found is None or count < _LEAST_OF_SCANS:
+        return False
+    more = max(count**-0.5 - _LEAST_CHANGES**-0.5, 0.0)
+    return found >= ALIKE + _MORE_DEVIATIONS * more
+
+
+def _correlation(one, other):
+    """The correlation of the ranks of what changes from cell to cell, or None, and how many changes are common."""
     if one is None or other is None or one.across != other.across:
-        return None
+        return None, 0
     (one_keys, one_ranks), (other_keys, other_ranks) = one.changes, other.changes
     _, mine, its = np.intersect1d(one_keys, other_keys, assume_unique=True, return_indices=True)
-    if len(mine) < _LEAST_CHANGES:
-        return None
+    if not len(mine):
+        return None, 0
     one, other = one_ranks[mine] - one_ranks[mine].mean(), other_ranks[its] - other_ranks[its].mean()
     scale = np.sqrt((one @ one) * (other @ other))
-    return float(one @ other / scale) if scale > 0 else None
+    return float(one @ other / scale) if scale > 0 else None, len(mine)
 
 
 def unlike(found):
@@ -170,8 +194,7 @@ def same_place(one, other):
     if one.camera is not None and other.camera is not None:
         # Where both scans have poses, these tell; those of scans that were never registered are all the same.
         return _is_beside(np.array(one.camera), np.array(other.camera))
-    found = agreement(one.reflectance, other.reflectance)
-    return found is not None and found >= ALIKE
+    return alike(one.reflectance, other.reflectance)
 
 
 def _is_beside(one, other):

@@ -4,7 +4,7 @@ from contextlib import ExitStack
 
 from ...errors import Cancelled
 from ...messages import Message
-from ...report.archive_entries import ITEMS, SCANS
+from ...report.archive_entries import ITEMS, PHOTOS, SCANS
 from ...threads import thread_count
 from .color_stage import colorize_items
 from .context import Context, hashed
@@ -109,6 +109,9 @@ def _find_photos(context, states, known_pairs, matched):
     items = [item for item in items if _unusable(context, item) is None]
     try:
         looks = first_looks(context, items, known_pairs)
+        # Each was made small for that; the report shows them so.
+        small = {name: context.folder.sketch(looks.hashes[path]).name for path, name in looks.photos.items()}
+        context.folder.remember("", PHOTOS, {"small": small})
         if MATCH in stages or COLOR in stages:
             match_items(context, items, {item.name for item in own}, looks, known_pairs, matched)
     except Cancelled:

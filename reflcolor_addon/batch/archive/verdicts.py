@@ -114,13 +114,20 @@ class Verdicts:
         return any(its in self._overlaps.get(own, ()) for own, its in (paths, reversed(paths)))
 
     def _compare_places(self):
-        """One photo on several items: they must be of one place."""
+        """One photo on several items: they must be of one place, or each of one place with a third one: scans that
+        see different parts of a photo have little in common."""
         for own in self._claims.values():
-            for one, other in combinations([claim for claim in own if claim.verified], 2):
-                if not self._compared(one, other, same_place):
-                    self._contradict(one, other)
-                else:
+            verified = [claim for claim in own if claim.verified]
+            place = {claim: {claim} for claim in verified}
+            for one, other in combinations(verified, 2):
+                if self._compared(one, other, same_place):
+                    both = place[one] | place[other]
+                    place |= dict.fromkeys(both, both)
+            for one, other in combinations(verified, 2):
+                if other in place[one]:
                     self._of_one_place |= {(one.item, other.item), (other.item, one.item)}
+                else:
+                    self._contradict(one, other)
 
     def _contradict(self, one, other):
         self._rivals[one].append(other)
