@@ -84,7 +84,7 @@ def _uncolored(root, label, item):
     tried = [pair for pair in _pairs(item) if pair["scan"] == label]
     note = (
         "no photo that was tried shows it for certain, so it has no colors; if you know one that does, four to six "
-        "pairs picked by hand place it (hand = ... in the manifest)"
+        "pairs picked by hand place it (hand = ... below its [[scan]] in the manifest)"
         if tried
         else "no photo was tried on it, so it has no colors; pairs.csv says why"
     )
@@ -123,7 +123,8 @@ def photos_of(root):
     for item in _items(root).values():
         for pair in _pairs(item):
             found.setdefault(pair["photo"], []).append(pair)
-    places = {name: root / STATE / LOOKS / Path(file).name for name, file in small.items()} if small else {}
+    small = small if isinstance(small, dict) else {}
+    places = {name: root / STATE / LOOKS / Path(str(file)).name for name, file in small.items()}
     return [_photo(name, found[name], places.get(name)) for name in sorted(found, key=str.casefold)]
 
 
