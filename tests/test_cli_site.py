@@ -248,7 +248,8 @@ def test_a_photo_that_is_not_verified_colors_nothing_unless_guesses_are_wanted(r
     write_png(painted / "noise.png", np.random.default_rng(0).integers(0, 255, (90, 120, 3), np.uint8))
     arguments = ("colorize", "south.ptx", "--photo", "noise.png", "--slic-segments", "40", "-o", "south.png")
     status, _, err = run_cli(*arguments)
-    assert status == 1 and "south: no photo could be verified, so there are no seeds" in err and "--guess" in err
+    assert status == 1 and err.count("south: no photo could be verified, so there are no seeds") == 1
+    assert "--guess" in err
     assert not (painted / "south.png").exists()
     status, _, err = run_cli(*arguments, "--guess", "--report", "report.json")
     assert status == 0 and "the colors are guesses" in err

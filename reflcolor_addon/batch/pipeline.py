@@ -14,6 +14,7 @@ from ..errors import ScanError, SeedsError
 from ..files.images import read_image
 from ..files.memory import give_back
 from ..matching import colors_of_texture, grid_texture, match_site, shots_of, texture, texture_shape
+from ..matching.site import NO_SEEDS
 from ..messages import Message, about_scan, value_of
 from ..progress import part
 from ..seeds.scan_colors import seeds_from_color
@@ -147,6 +148,9 @@ def _report_matching(jobs, plan, session):
             # Most photos of an archive show other scans, which their notes say.
             refused = {photo.name for photo in job.matching.photos if not photo.verified}
             warnings = [line for line in warnings if value_of(line, "photo") not in refused]
+        if not plan.skip_unshown:
+            # The error that follows says it.
+            warnings = [line for line in warnings if line.template != NO_SEEDS]
         session.warnings += _named(job, len(jobs), warnings)
         notes = [Message("{photo}: {note}", photo=photo.name, note=photo.note) for photo in job.matching.photos]
         for line in _named(job, len(jobs), notes):

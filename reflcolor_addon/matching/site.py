@@ -24,6 +24,8 @@ from .transfer.sharing import shared
 from .transfer.surface import GridSurface
 from .transfer.views import seen_by
 
+NO_SEEDS = "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs, or have colors guessed"
+"""The warning where a scan has no seeds for that."""
 _STEPS_PER_PHOTO = 40
 # A photo that shows fewer pixels of a scan than this counts as showing none of it.
 _LEAST_SEEN = 100
@@ -312,10 +314,7 @@ def _unverified(place, photos, settings, step):
     """Seeds where nothing was verified: none, unless guesses are wanted."""
     if settings.guess:
         return _cautious(place, photos, settings, step)
-    warning = (
-        "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs, or have colors guessed"
-    )
-    place.warnings.append(Message(warning, scan=place.scan.name))
+    place.warnings.append(Message(NO_SEEDS, scan=place.scan.name))
     return Seeds(rows=np.zeros(0, int), cols=np.zeros(0, int), rgb=np.zeros((0, 3), np.uint8))
 
 
