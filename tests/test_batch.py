@@ -225,7 +225,7 @@ def test_what_was_colored_earlier_is_deleted_where_no_photo_shows_the_scan_any_m
         "reports/hall_0.jpg",
         "reports/hall_1.jpg",
     }
-    # Another scan of the batch is not touched.
+    # What the manifest does not name any more is not touched.
     assert (results / "hall_2.png").is_file()
 
 

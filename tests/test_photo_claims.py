@@ -89,6 +89,12 @@ def test_scans_that_see_different_parts_of_a_photo_may_all_be_shown():
     assert verdict([claims[0], claims[2]]) == Verdict(refused=("left", "right"))
     # Of another place they are not alike there.
     assert not alike(columns_of(CELLAR, 0, 11), middle)
+    # That a third one is like both does not count where they can be compared and differ.
+    assert alike(HALL, CELLAR) is False and alike(left, right) is None
+    between = claim("between", 60.0, camera=[0.4, 0.0, 0.0, 0.0, 1.0, 0.0, 4.0])
+    far, farther = (replace(between, item=str(x), camera=[x, 0.0, 0.0, 0.0, 1.0, 0.0, 4.0]) for x in (0.0, 0.8))
+    assert not verdict([between, far]).refused and not verdict([between, farther]).refused
+    assert set(verdict([far, between, farther]).refused) == {"0.0", "0.8"}
     # One column is too little to tell.
     assert not alike(columns_of(HALL, 0, 8), columns_of(HALL, 7, 17))
 

@@ -142,15 +142,16 @@ def _take_colors(jobs, plan):
 
 
 def _report_matching(jobs, plan, session):
+    # The error that follows is about the first.
+    failing = next((job for job in jobs if not plan.skip_unshown and _lacks_seeds(job)), None)
     for job in jobs:
         warnings = job.matching.warnings
         if plan.skip_unshown and plan.hand is None:
             # Most photos of an archive show other scans, which their notes say.
             refused = {photo.name for photo in job.matching.photos if not photo.verified}
             warnings = [line for line in warnings if value_of(line, "photo") not in refused]
-        if not plan.skip_unshown:
-            # The error that follows says it.
-            warnings = [line for line in warnings if line.template != NO_SEEDS]
+        if job is failing:
+            warnings = [line for line in warnings if getattr(line, "template", None) != NO_SEEDS]
         session.warnings += _named(job, len(jobs), warnings)
         notes = [Message("{photo}: {note}", photo=photo.name, note=photo.note) for photo in job.matching.photos]
         for line in _named(job, len(jobs), notes):
@@ -172,8 +173,7 @@ def _registered(jobs, plan, session):
 
 def _shown(jobs, plan, session):
     """The jobs for which seeds were found; the others are left out if the plan has it so, else SeedsError is raised."""
-    shown = [job for job in jobs if job.seeds is not None and len(job.seeds)]
-    for job in (job for job in jobs if job not in shown):
+    for job in filter(_lacks_seeds, jobs):
         if not plan.skip_unshown:
             raise SeedsError(
                 "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs and find seeds with "
@@ -182,7 +182,11 @@ def _shown(jobs, plan, session):
             )
         session.left_out.append(job.label)
         write_uncolored(plan, job)
-    return shown
+    return [job for job in jobs if not _lacks_seeds(job)]
+
+
+def _lacks_seeds(job):
+    return job.seeds is None or not len(job.seeds)
 
 
 def find_seeds(jobs, photos, settings, *, registered=None, progress=None, cancelled=None):

@@ -152,23 +152,30 @@ def _photos(found):
 
 def _small(path):
     """A photo, small, as an image; nothing where it cannot be read."""
-    try:
-        data = None if path is None else contents(path, "a picture", most=_LARGEST_PREVIEW)
-    except ReflcolorError:
-        data = None
-    if not data:
-        return ""
-    import cv2
-    import numpy as np
-
-    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+    _, picture = _picture(path)
     if picture is None:
         return ""
+    import cv2
+
     scale = _SMALL_SIDE / max(picture.shape[:2])
     size = [max(1, round(side * scale)) for side in picture.shape[1::-1]]
     picture = cv2.resize(picture, size, interpolation=cv2.INTER_AREA)
     encoded = base64.b64encode(cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 75])[1]).decode("ascii")
     return f'<img alt="" width="{size[0]}" height="{size[1]}" src="data:image/jpeg;base64,{encoded}">'
+
+
+def _picture(path):
+    """The bytes of a file and the picture that they hold; None where there is none, or none that can be read."""
+    try:
+        data = None if path is None else contents(path, "a preview", most=_LARGEST_PREVIEW)
+    except ReflcolorError:
+        data = None
+    if not data:
+        return None, None
+    import cv2
+    import numpy as np
+
+    return data, cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
 
 
 def _row(entry):
@@ -197,17 +204,7 @@ def _number(label, value, text):
 
 def _tiles(entry):
     """The preview; one picture, shown in four places by style alone."""
-    path = entry["preview"]
-    try:
-        data = None if path is None else contents(path, "a preview", most=_LARGEST_PREVIEW)
-    except ReflcolorError:
-        data = None
-    if not data:
-        return '<span class="soft">no preview</span>'
-    import cv2
-    import numpy as np
-
-    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+    data, picture = _picture(entry["preview"])
     if picture is None:
         return '<span class="soft">no preview</span>'
     height, width = picture.shape[:2]

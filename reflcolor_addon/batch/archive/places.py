@@ -139,7 +139,7 @@ def agreement(one, other):
 
 
 def alike(one, other):
-    """Whether two scans measured the same behind one photo.
+    """Whether two scans measured the same behind one photo; None where they have too little in common to tell.
 
     Parameters
     ----------
@@ -148,9 +148,11 @@ def alike(one, other):
     """
     found, count = _correlation(one, other)
     if found is None or count < _LEAST_OF_SCANS:
-        return False
+        return None
     more = max(count**-0.5 - _LEAST_CHANGES**-0.5, 0.0)
-    return found >= ALIKE + _MORE_DEVIATIONS * more
+    if found >= ALIKE + _MORE_DEVIATIONS * more:
+        return True
+    return False if count >= _LEAST_CHANGES else None
 
 
 def _correlation(one, other):
@@ -185,7 +187,7 @@ def camera_place(scan, model):
 
 
 def same_place(one, other):
-    """Whether two scans agree about a photo.
+    """Whether two scans agree about a photo; None where that cannot be told.
 
     Parameters
     ----------

@@ -114,8 +114,8 @@ class Verdicts:
         return any(its in self._overlaps.get(own, ()) for own, its in (paths, reversed(paths)))
 
     def _compare_places(self):
-        """One photo on several items: they must be of one place, or each of one place with a third one: scans that
-        see different parts of a photo have little in common."""
+        """One photo on several items: they must be of one place. Where two see different parts of the photo, so that
+        they cannot be compared, a third one may be of one place with both."""
         for own in self._claims.values():
             verified = [claim for claim in own if claim.verified]
             place = {claim: {claim} for claim in verified}
@@ -124,7 +124,7 @@ class Verdicts:
                     both = place[one] | place[other]
                     place |= dict.fromkeys(both, both)
             for one, other in combinations(verified, 2):
-                if other in place[one]:
+                if other in place[one] and self._compared(one, other, same_place) is not False:
                     self._of_one_place |= {(one.item, other.item), (other.item, one.item)}
                 else:
                     self._contradict(one, other)
