@@ -13,6 +13,7 @@ from small_scans import random_scan
 
 from reflcolor_addon import Seeds, Settings, read_scans
 from reflcolor_addon.batch.archive.costs import Costs
+from reflcolor_addon.batch.archive.done import Done
 from reflcolor_addon.batch.archive.estimate import estimate
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.manifest_file import load_manifest
@@ -169,7 +170,16 @@ def test_progress_is_told_in_lines_where_there_is_no_terminal():
     for seconds, fraction in ((1, 0.1), (6, 0.15), (9, 0.3), (12, 0.35), (20, 0.38), (30, 1.0), (31, 0.0), (40, 0.2)):
         clock[0] = seconds
         show(fraction, "at work")
-    assert said == [" 10%  at work", " 30%  at work", "100%  at work", " 20%  at work"]
+    assert said == [" 15%  at work", " 35%  at work", "100%  at work", " 20%  at work"]
+
+
+def test_where_a_tenth_takes_long_a_percent_is_told_at_most_once_a_minute():
+    said, clock = [], [0.0]
+    show = _plain_lines(Session(say=said.append), now=lambda: clock[0])
+    for seconds, fraction in ((30, 0.01), (59, 0.02), (61, 0.025), (90, 0.04), (130, 0.05), (200, 0.059), (900, 0.06)):
+        clock[0] = seconds
+        show(fraction, "at work")
+    assert said == ["  2%  at work", "  5%  at work", "  6%  at work"]
 
 
 def test_progress_for_an_engine_of_a_render_farm(archive, batch):
@@ -207,9 +217,13 @@ def test_a_scan_that_no_photo_shows_any_more_is_told_so(archive, batch):
     assert table_of(archive)["hall_1"]["state"] == "unshown"
 
 
-def test_what_was_colored_earlier_is_deleted_where_no_photo_shows_the_scan_any_more(archive, batch):
+@pytest.mark.parametrize("killed", [False, True])
+def test_what_was_colored_earlier_is_deleted_where_no_photo_shows_the_scan_any_more(archive, batch, killed):
     batch()
     results = archive / "colored"
+    if killed:
+        # As a batch leaves it that was killed after it had begun the scan.
+        Done(BatchFolder(Path("colored")), None).begin("hall_0", "color")
     (results / "hall_1.png").write_bytes(b"painted over by hand")
     write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
     (archive / "batch.toml").write_text(HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")

@@ -287,12 +287,58 @@ def test_what_was_known_before_tells_nothing_of_the_time_left(monkeypatch):
                 finished(task, outcome)
             show([])
 
-    context = SimpleNamespace(
-        workers=Workers(), session=SimpleNamespace(progress=lambda fraction, text: said.append(text))
-    )
+    class OfABatch(Context):
+        def __init__(self):
+            self.workers, self.whole = Workers(), progress_lines.WholeProgress({"look": 5.0}, 1)
+            self.session = SimpleNamespace(progress=lambda fraction, text: said.append((fraction, text)))
+
     tasks = [Task(name=name, request={}) for name in ("known 1", "known 2", "known 3", "new 1", "new 2")]
-    Context.work(context, tasks, lambda task, outcome: None, "Looked at")
-    assert said[0] == "Looked at 4 of 5; 10 s left of this step"
+    OfABatch().work("look", tasks, lambda task, outcome: None, "Looked at")
+    assert said[0] == (0.5, "Looked at 4 of 5; 9 s left")
+
+
+def test_progress_is_that_of_the_whole_batch(monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(progress_lines, "time", SimpleNamespace(monotonic=lambda: clock[0]))
+    whole = progress_lines.WholeProgress({"look": 10.0, "match": 70.0, "color": 20.0}, 2)
+    assert (whole.share(), whole.text()) == (0.0, "50 s left")
+    told = []
+
+    def step(stage, cost, seconds, **how):
+        whole.begin(stage, cost, **how)
+        clock[0] += seconds / 2
+        told.append((round(whole.share(cost / 2), 2), whole.text(cost / 2)))
+        clock[0] += seconds / 2
+        whole.add(cost)
+        told.append((round(whole.share(), 2), whole.text()))
+
+    step("look", 10.0, 5.0)
+    # It takes twice as long as was expected.
+    step("match", 20.0, 20.0)
+    step("match", 20.0, 20.0)
+    # No more pairs are tried, though more were expected, and coloring has more to do than was expected.
+    step("color", 50.0, 50.0, only=True)
+    assert told == [
+        (0.05, "48 s left"),
+        (0.1, "45 s left"),
+        (0.2, "56 s left"),
+        (0.3, "55 s left"),
+        (0.4, "50 s left"),
+        (0.5, "43 s left"),
+        (0.75, "23 s left"),
+        (1.0, "1 s left"),
+    ]
+
+
+def test_the_share_that_is_done_never_falls():
+    whole = progress_lines.WholeProgress({"look": 10.0, "color": 10.0}, 1)
+    whole.begin("look", 10.0)
+    whole.add(10.0)
+    assert whole.share() == 0.5
+    whole.begin("color", 90.0, only=True)
+    assert whole.share() == 0.5
+    whole.add(90.0)
+    assert whole.share() == 1.0
 
 
 def test_looks_and_matches_that_were_kept_count_as_no_work(archive):

@@ -18,7 +18,7 @@ from reflcolor_addon.batch.archive.names import item_names
 from reflcolor_addon.batch.archive.pairs import read_pairs
 from reflcolor_addon.errors import UsageError
 from reflcolor_addon.files.images import write_png
-from reflcolor_addon.files.readers import ReadOptions
+from reflcolor_addon.files.readers import ReadOptions, read_scans
 from reflcolor_addon.files.writers import write_ptx
 
 
@@ -275,6 +275,15 @@ def test_a_draft_leaves_out_images_that_belong_to_a_scan_and_results_of_a_batch(
     write_ptx(random_scan(), folder / "colored" / "old.ptx")
     text = draft(folder, folder / "batch.toml")
     assert "old.ptx" not in text and "colored/" not in text
+
+
+def test_a_draft_leaves_out_a_colorized_image_beside_its_scan(folder):
+    rows, columns = read_scans(folder / "hall_0.ptx")[0].shape
+    write_png(folder / "hall_0.png", np.zeros((rows, columns, 3), np.uint8))
+    write_png(folder / "hall_1.png", np.zeros((rows, columns + 1, 3), np.uint8))
+    (folder / "hall_2.png").write_bytes(b"no picture")
+    text = draft(folder, folder / "batch.toml")
+    assert "hall_0.png" not in text and "hall_1.png" in text and "hall_2.png" in text
 
 
 def test_a_draft_takes_a_text_of_points_for_a_scan_and_leaves_out_other_texts(folder):

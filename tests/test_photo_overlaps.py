@@ -117,7 +117,7 @@ def asked(count, scans, left_out=(), agreed=()):
     """What the workers are asked, and what follows if they answer that photos, by their numbers, agree so well."""
     tasks = []
 
-    def work(own, done, *_):
+    def work(stage, own, done, *_):
         tasks.extend(own)
         for task in own:
             of_task = [one for one in agreed if one[0] in task.request["photos"] and one[1] in task.request["others"]]

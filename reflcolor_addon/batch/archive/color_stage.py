@@ -27,8 +27,8 @@ def colorize_items(context, states, matched):
         Which photos of the whole batch show the items that are offered these.
     """
     pieces = []
-    for number, state in enumerate(states):
-        context.session.progress(number / len(states), Message("Looking for changes: {name}", name=state.item.name))
+    for state in states:
+        context.tell(Message("Looking for changes: {name}", name=state.item.name))
         plan = color_plan(context, state.item, matched)
         state.matched = matched.told(state.item.name)
         state.refused = {path for (name, path), shows in matched.said.items() if name == state.item.name and not shows}
@@ -49,7 +49,8 @@ def colorize_items(context, states, matched):
             },
             needs_blender=plan.needs_blender,
             memory=context.costs.memory(plan.scans, () if plan.seeds else plan.photos),
-            cost=context.costs.seconds(plan.scans, 0 if plan.seeds else len(plan.photos)),
+            # Where photos of the whole batch are, is known by now.
+            cost=context.costs.seconds(plan.scans, 0 if plan.seeds or state.item.offered else len(plan.photos)),
             log=context.folder.log(state.item.name),
         )
         pieces.append((state, context.done.key(COLOR, plan, hashes, placed_by), task))

@@ -13,7 +13,7 @@ from .fingerprints import Fingerprints
 from .folder import BatchFolder
 from .manifest import Manifest
 from .options import Options
-from .progress_lines import TimeLeft
+from .progress_lines import WholeProgress
 from .workers import Task, Workers
 
 
@@ -31,6 +31,7 @@ class Context:
     done : Done
     workers : Workers
     same : Duplicates
+    whole : WholeProgress
     problems : dict of str to str
         Why photos cannot be used, by their paths, as far as that was found.
     """
@@ -43,6 +44,7 @@ class Context:
     done: Done
     workers: Workers
     same: Duplicates
+    whole: WholeProgress
     problems: dict[str, str] = field(default_factory=dict)
 
     @property
@@ -54,24 +56,40 @@ class Context:
         """Return the hash of each file by its path as text."""
         return {str(path): hashed(self.fingerprints, path, self.session.cancelled) for path in paths}
 
-    def work(self, tasks: list[Task], finished: Callable, what: str, begin: Callable = lambda task: True):
-        """Run tasks and show their progress.
+    def tell(self, text):
+        """Show what is done between steps."""
+        self.session.progress(self.whole.share(), text)
+
+    def work(
+        self,
+        stage: str,
+        tasks: list[Task],
+        finished: Callable,
+        what: str,
+        begin: Callable = lambda task: True,
+        only: bool = False,
+    ):
+        """Run the tasks of one step of a stage, and show how far the whole batch is.
 
         Parameters
         ----------
+        stage : str
         tasks : list of Task
         finished, begin : callable
             As `Workers.work`.
         what : str
             What is done, for the line of progress.
+        only : bool
+            Whether the stage has no other step.
         """
-        left, count, done = TimeLeft(sum(task.cost for task in tasks)), len(tasks), 0
+        whole, count, done = self.whole, len(tasks), 0
+        whole.begin(stage, sum(task.cost for task in tasks), only)
 
         def show(running):
             share = sum(task.cost * fraction for task, fraction, _ in running)
-            parts = [f"{what} {done} of {count}", left.text(share) if done else ""]
+            parts = [f"{what} {done} of {count}", whole.text(share)]
             parts += [f"{task.name}: {text}" for task, _, text in running if text]
-            self.session.progress(left.share(share), "; ".join(filter(None, parts)))
+            self.session.progress(whole.share(share), "; ".join(parts))
 
         def counted(task, outcome):
             nonlocal done
@@ -81,8 +99,8 @@ class Context:
             if len(tasks) == waiting:
                 # What was known from before takes no time, and tells nothing of how long the rest will take.
                 worked = outcome.get("found", {}).get("worked", 1.0)
-                left.drop((1 - worked) * task.cost)
-                left.add(worked * task.cost)
+                whole.drop((1 - worked) * task.cost)
+                whole.add(worked * task.cost)
                 done += 1
             return stop
 
@@ -90,18 +108,19 @@ class Context:
             nonlocal count
             if begin(task):
                 return True
-            left.drop(task.cost)
+            whole.drop(task.cost)
             count -= 1
             return False
 
         self.workers.work(tasks, counted, show, begun)
-        self.session.progress(left.share(), f"{what} {done} of {count}")
+        self.tell(f"{what} {done} of {count}")
 
-    def work_again(self, tasks: list[Task], done: Callable, failed: Callable, what: str):
+    def work_again(self, stage: str, tasks: list[Task], done: Callable, failed: Callable, what: str):
         """Run tasks, those again that failed for something that may pass.
 
         Parameters
         ----------
+        stage : str
         tasks : list of Task
         done : callable
             Called as ``done(task, outcome)``.
@@ -122,7 +141,7 @@ class Context:
             else:
                 failed(task)
 
-        self.work(tasks, finished, what)
+        self.work(stage, tasks, finished, what)
 
     def tell_problem(self, path, problem):
         """Say why a photo cannot be used, and remember it."""

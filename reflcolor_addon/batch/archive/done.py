@@ -1,13 +1,15 @@
 """Records of finished work: one for each item and stage, and whether it is still valid."""
 
 import time
+from contextlib import suppress
 from pathlib import Path
 
 from ...files.refusals import unwritable
 from ..plan_document import as_document
 from .fingerprints import digest_of, program_digest
 
-KIND = "done"
+# Records of finished work, and those of what is written anew.
+KIND, BEGUN = "done", "begun"
 
 
 class Done:
@@ -46,6 +48,11 @@ class Done:
         outputs = {path: self._output(path) for path in outcome["written"]}
         kept = {name: outcome.get(name) for name in ("warnings", "left_out", "photos", "seconds")}
         self._folder.remember(KIND, f"{name} {stage}", {"key": key, "ended": time.time(), "outputs": outputs} | kept)
+        path = self._folder.state(BEGUN, f"{name} {stage}.json")
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise unwritable(path, error) from error
 
     def recall(self, name, stage, key=None, since=None):
         """Return the record of finished, complete work, with this key if one is given; else None.
@@ -71,18 +78,26 @@ class Done:
             record["outputs"][str(path)] = self._output(path)
             self._folder.remember(KIND, f"{name} {stage}", record)
 
-    def forget(self, name, stage):
-        """Delete a record before its outputs are written again."""
+    def begin(self, name, stage):
+        """Make a record invalid before its outputs are written again.
+
+        Its `outputs` are known until something else is recorded, so that those which are not written again are still
+        found if the batch is killed meanwhile.
+        """
         path = self._folder.state(KIND, f"{name} {stage}.json")
         try:
-            path.unlink(missing_ok=True)
+            with suppress(FileNotFoundError):
+                path.replace(self._folder.state(BEGUN, path.name))
         except OSError as error:
             raise unwritable(path, error) from error
 
     def outputs(self, name, stage):
         """Return the outputs of an item, by their paths what is recorded of each; none where nothing is recorded."""
-        found = (self._folder.recall(KIND, f"{name} {stage}") or {}).get("outputs")
-        return found if isinstance(found, dict) else {}
+        outputs = {}
+        for kind in (BEGUN, KIND):
+            found = (self._folder.recall(kind, f"{name} {stage}") or {}).get("outputs")
+            outputs |= found if isinstance(found, dict) else {}
+        return outputs
 
     def delete(self, outputs):
         """Delete of recorded `outputs` those that are still as they were written; return their paths."""

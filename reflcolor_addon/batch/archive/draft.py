@@ -5,8 +5,8 @@ from collections import Counter
 from pathlib import Path
 
 from ...errors import ReflcolorError, UsageError
-from ...files.images import IMAGE_SUFFIXES
-from ...files.readers import SCAN_SUFFIXES, text_cloud
+from ...files.images import IMAGE_SUFFIXES, image_size
+from ...files.readers import SCAN_SUFFIXES, scan_pixels, text_cloud
 from ...report.archive_entries import STATE
 from ..paths import scan_files
 
@@ -95,7 +95,14 @@ def draft(folder, path):
             parts.update(file.resolve() for file in scan_files(scan) if file != scan)
         except (OSError, ReflcolorError):
             continue
-    photos = [file for file in files if file.suffix.lower() in IMAGE_SUFFIXES and file.resolve() not in parts]
+    stems = {(scan.parent, _stem(scan)): scan for scan in scans}
+    photos = [
+        file
+        for file in files
+        if file.suffix.lower() in IMAGE_SUFFIXES
+        and file.resolve() not in parts
+        and not _is_colorized(file, stems.get((file.parent, file.stem)))
+    ]
     seen_from = path.absolute().parent
 
     def named(file):
@@ -143,10 +150,24 @@ def _suffix(file):
     return file.name[-len(known) :] if known else ""
 
 
+def _stem(scan):
+    return scan.name[: -len(_suffix(scan))]
+
+
+def _is_colorized(file, scan):
+    """Whether an image is a colorized scan that was written beside it: it has its name and its grid."""
+    if scan is None or file == scan:
+        return False
+    try:
+        rows, columns = image_size(file)
+        return rows * columns in scan_pixels(scan)
+    except ReflcolorError:
+        return False
+
+
 def _seeds_of(scan):
     """The file of seeds that lies beside a scan and has its name."""
-    stem = scan.name[: -len(_suffix(scan))]
-    for name in (f"{stem}.seeds.json", f"{scan.name}.seeds.json"):
+    for name in (f"{_stem(scan)}.seeds.json", f"{scan.name}.seeds.json"):
         if (scan.parent / name).is_file():
             return scan.parent / name
     return None

@@ -6,7 +6,14 @@ from ...files.memory import readable
 from ...messages import Message
 from ..plan import RENDER
 from .candidates import SECOND_LOOKS, are_few
-from .costs import SECONDS_PER_COMPARISON, SECONDS_PER_LOOK, SECONDS_PER_LOOK_OF_SCANS, SECONDS_PER_SECOND_LOOK
+from .costs import (
+    SECONDS_PER_COMPARISON,
+    SECONDS_PER_LOOK,
+    SECONDS_PER_LOOK_OF_SCANS,
+    SECONDS_PER_PAIR,
+    SECONDS_PER_SECOND_LOOK,
+)
+from .options import COLOR, LOOK, MATCH, RENDERING
 from .overlap_stage import MOST_COMPARED
 from .progress_lines import duration
 from .tries import MOST_SCANS
@@ -29,7 +36,7 @@ def estimate(manifest, options, costs):
     -------
     list of Message
     """
-    items = [item for item in options.chosen(manifest.items) if costs.unusable.keys().isdisjoint(item.plan.scans)]
+    items = _usable(manifest, options, costs)
     pixels = sum(costs.pixels(item.plan.scans) for item in items)
     lines = [
         Message(
@@ -41,21 +48,8 @@ def estimate(manifest, options, costs):
     ]
     if not items:
         return lines
+    seconds = sum(expected(manifest, options, costs).values())
     offered = sum(item.offered for item in manifest.items)
-    pairs, looks = len(manifest.photos), SECONDS_PER_LOOK * len(manifest.photos)
-    if not are_few(offered, pairs):
-        # Each photo is matched with few scans, and looked at again for some, whatever the number of scans. Then what
-        # was measured where it was found is looked for in all of them. Photos are compared with each other.
-        looks += SECONDS_PER_SECOND_LOOK * pairs * min(SECOND_LOOKS, offered) / offered
-        looks += SECONDS_PER_LOOK_OF_SCANS * pairs
-        looks += SECONDS_PER_COMPARISON * pairs * min(pairs / 2, MOST_COMPARED * offered) / offered
-        pairs *= min(MOST_SCANS, offered) / offered
-    seconds = sum(
-        costs.seconds(item.plan.scans, pairs if item.offered else 0 if item.plan.seeds else len(item.plan.photos))
-        + looks * item.offered
-        + _SECONDS_TO_RENDER * any(output.kind == RENDER for output in item.plan.outputs)
-        for item in items
-    )
     needs = sorted(
         (costs.memory(item.plan.scans, _open_together(item, offered, costs)) for item in items), reverse=True
     )
@@ -76,6 +70,50 @@ def estimate(manifest, options, costs):
             )
         )
     return lines
+
+
+def expected(manifest, options, costs):
+    """Return how long each stage of a batch will probably take.
+
+    Parameters
+    ----------
+    manifest : Manifest
+    options : Options
+    costs : Costs
+
+    Returns
+    -------
+    dict of str to float
+        Seconds of one processor, by the stage, in their order; of those that are asked for, and those these need.
+    """
+    items = _usable(manifest, options, costs)
+    offered = sum(item.offered for item in manifest.items)
+    own, photos = sum(item.offered for item in items), len(manifest.photos)
+    pairs, looks, looks_of_scans = photos, SECONDS_PER_LOOK * photos, 0.0
+    if own and not are_few(offered, photos):
+        # Each photo is matched with few scans, and looked at again for some, whatever the number of scans. Then what
+        # was measured where it was found is looked for in all of them. Photos are compared with each other.
+        looks += SECONDS_PER_SECOND_LOOK * photos * min(SECOND_LOOKS, offered) / offered
+        looks += SECONDS_PER_COMPARISON * photos * min(photos / 2, MOST_COMPARED * offered) / offered
+        looks_of_scans = SECONDS_PER_LOOK_OF_SCANS * photos
+        pairs = photos * min(MOST_SCANS, offered) / offered
+    of_stages = {
+        LOOK: own * looks,
+        MATCH: own * (looks_of_scans + SECONDS_PER_PAIR * pairs),
+        COLOR: sum(
+            costs.seconds(item.plan.scans, 0 if item.offered or item.plan.seeds else len(item.plan.photos))
+            for item in items
+        ),
+        RENDERING: _SECONDS_TO_RENDER
+        * sum(any(output.kind == RENDER for output in item.plan.outputs) for item in items),
+    }
+    asked = set(options.stages)
+    needed = {LOOK: {LOOK, MATCH, COLOR}, MATCH: {MATCH, COLOR}}
+    return {stage: seconds for stage, seconds in of_stages.items() if asked & needed.get(stage, {stage})}
+
+
+def _usable(manifest, options, costs):
+    return [item for item in options.chosen(manifest.items) if costs.unusable.keys().isdisjoint(item.plan.scans)]
 
 
 def _open_together(item, offered, costs):

@@ -69,7 +69,7 @@ class BatchFolder:
         """
         for folder in (self.root, self.root / REPORTS, self.root / "logs"):
             _make(folder)
-        for name in ("done", ITEMS, "locks", "matched", "looks", "pairs"):
+        for name in ("done", "begun", ITEMS, "locks", "matched", "looks", "pairs"):
             _make(self.state(name))
 
     @contextmanager

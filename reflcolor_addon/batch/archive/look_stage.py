@@ -9,9 +9,13 @@ from ...files.readers.e57_file import acquired_at
 from ...messages import Message
 from ..paths import scan_files
 from .candidates import all_of_them, are_few, for_second_looks, merged, ranks, telling
+from .costs import SECONDS_PER_LOOK, SECONDS_PER_LOOK_OF_SCANS, SECONDS_PER_SECOND_LOOK
 from .looks import FIRST, OF_SCANS, SECOND
+from .options import LOOK, MATCH
 from .partners import partners
 from .workers import Task
+
+_SECONDS_PER = {FIRST: SECONDS_PER_LOOK, SECOND: SECONDS_PER_SECOND_LOOK, OF_SCANS: SECONDS_PER_LOOK_OF_SCANS}
 
 
 @dataclass(kw_only=True)
@@ -82,8 +86,10 @@ def first_looks(context, items, known_pairs):
     """
     photos = {str(path): context.manifest.name_of(path) for path in context.manifest.photos}
     hashes = {}
-    for number, (path, name) in enumerate(photos.items()):
-        context.session.progress(number / len(photos), Message("Reading photos: {name}", name=name))
+    for number, (path, name) in enumerate(photos.items(), 1):
+        context.tell(
+            Message("Reading photos ({number} of {count}): {name}", number=number, count=len(photos), name=name)
+        )
         hashes |= context.hashes([path])
     looks = Looks(
         photos=photos,
@@ -155,7 +161,9 @@ def _look(context, items, photos, looks, what, which=FIRST):
 
     tasks = [_task(context, item, photos[item.name], looks.hashes, which) for item in items if photos.get(item.name)]
     # What is wrong with a scan is told when it is colorized.
-    context.work_again(tasks, looked, lambda task: looks.unseen.add(task.name), what)
+    context.work_again(
+        LOOK if which != OF_SCANS else MATCH, tasks, looked, lambda task: looks.unseen.add(task.name), what
+    )
     for path, problem in problems.items():
         context.tell_problem(path, problem)
     return scores
@@ -181,6 +189,6 @@ def _task(context, item, photos, hashes, which):
             "hashes": context.hashes(files) | {path: hashes[path] for path in photos},
         },
         memory=context.costs.memory(item.plan.scans),
-        cost=1.0 + len(photos),
+        cost=_SECONDS_PER[which] * (1 + len(photos)),
         log=context.folder.log(f"{item.name} look"),
     )

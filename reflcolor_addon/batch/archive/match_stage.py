@@ -9,6 +9,7 @@ from ..plan_document import as_document
 from .claims import Claim, Verdict
 from .fingerprints import digest_of, program_digest
 from .look_stage import looks_of_scans, second_looks
+from .options import MATCH
 from .overlap_stage import overlapping
 from .tries import MOST_HELPERS, Tries
 from .verdicts import Verdicts
@@ -194,7 +195,7 @@ class _Rounds:
             # What is wrong is told when the item is colorized.
             self._found.by_likeness[task.name] = task.request["plan"]["photos"]
 
-        self._context.work_again(tasks, done, failed, f"Matching photos (round {self._number}), scan")
+        self._context.work_again(MATCH, tasks, done, failed, f"Matching photos (round {self._number}), scan")
 
     def _may_show(self, name, path):
         return self._said.get((name, path)) is not False and path not in self._context.problems

@@ -2,6 +2,8 @@
 
 from collections import defaultdict
 
+from .costs import SECONDS_PER_COMPARISON
+from .options import LOOK
 from .workers import Task
 
 # With how many of those that come before it, and after it, each photo is compared at most, for each scan: then it takes
@@ -48,7 +50,7 @@ def overlapping(context, looks, scans):
             found[other].append((-agreed, one))
 
     # Without it, the order in which pairs are tried is not as good; nothing else is lost.
-    context.work_again(tasks, compared, lambda task: None, "Compared groups of photos")
+    context.work_again(LOOK, tasks, compared, lambda task: None, "Compared groups of photos")
     return {photo: [other for _, other in sorted(own)[:_MOST_OVERLAPS]] for photo, own in found.items()}
 
 
@@ -66,6 +68,6 @@ def _task(context, number, later, blocks, hashes):
             "hashes": {path: hashes[path] for path in own + others},
         },
         memory=context.costs.memory(()),
-        cost=pairs + _DESCRIBING * (len(own) + len(others) * (number != later)),
+        cost=SECONDS_PER_COMPARISON * (pairs + _DESCRIBING * (len(own) + len(others) * (number != later))),
         log=context.folder.log(name),
     )

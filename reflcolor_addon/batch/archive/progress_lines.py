@@ -2,37 +2,72 @@
 
 import time
 
+# What was expected before the batch began counts as much as measuring this share of it.
+_EXPECTED_COUNTS = 0.05
 
-class TimeLeft:
-    """Estimates the remaining time from the work done so far.
+
+class WholeProgress:
+    """Estimates how far a batch is, and the time left, from what was expected and from the work done so far.
 
     Parameters
     ----------
-    whole : float
-        The cost of everything, in any unit.
+    expected : dict of str to float
+        The cost of each stage, in their order, in seconds of one processor.
+    workers : int
+        How many processors work on it.
     """
 
-    def __init__(self, whole):
-        self._whole, self._done, self._start = max(whole, 1e-9), 0.0, time.monotonic()
+    def __init__(self, expected, workers):
+        self._left, self._workers = dict(expected), workers
+        self._stage, self._step, self._done, self._shown = None, 0.0, 0.0, 0.0
+        self._start = time.monotonic()
+
+    def begin(self, stage, cost, only=False):
+        """Begin a step of a stage; the stages before it are at their end.
+
+        Parameters
+        ----------
+        stage : str
+        cost : float
+        only : bool
+            Whether the stage has no other step, so that ``cost`` replaces what was expected.
+        """
+        for other in self._left:
+            if other == stage:
+                break
+            self._left[other] = 0.0
+        if only:
+            self._left[stage] = cost
+        self._stage, self._step = stage, cost
 
     def add(self, cost):
         """Count what was done."""
         self._done += cost
+        self.drop(cost)
 
     def drop(self, cost):
         """Take out what need not be done."""
-        self._whole = max(self._whole - cost, 1e-9)
+        self._step -= cost
+        self._left[self._stage] = max(self._left.get(self._stage, 0.0) - cost, 0.0)
 
     def share(self, running=0.0):
-        """Return how much is done, 0 to 1; ``running`` is what was done of what is not finished yet."""
-        return min((self._done + running) / self._whole, 1.0)
+        """Return how much is done, 0 to 1, and never less than before; ``running`` is what was done of what is not
+        finished yet."""
+        done, whole = self._counted(running)
+        self._shown = min(max(self._shown, done / max(whole, 1e-9)), 1.0)
+        return self._shown
 
     def text(self, running=0.0):
-        """Return the remaining time in words; an empty text while it cannot be estimated."""
-        share = self.share(running)
-        if share < 0.01:
-            return ""
-        return f"{duration((time.monotonic() - self._start) * (1 - share) / share)} left of this step"
+        """Return the time left in words."""
+        done, whole = self._counted(running)
+        expected = max(_EXPECTED_COUNTS * whole, 1e-9)
+        each = (time.monotonic() - self._start + expected / self._workers) / (done + expected)
+        return f"{duration(each * max(whole - done, 0.0))} left"
+
+    def _counted(self, running):
+        """What is done, and the whole, as far as it is known."""
+        left = sum(self._left.values()) + max(self._step - self._left.get(self._stage, 0.0), 0.0)
+        return self._done + running, self._done + left
 
 
 def duration(seconds):

@@ -10,11 +10,13 @@ from .color_stage import colorize_items
 from .context import Context, hashed
 from .done import Done
 from .duplicates import duplicates
+from .estimate import expected
 from .fingerprints import Fingerprints
 from .look_stage import first_looks
 from .match_stage import Matched, match_items
 from .options import COLOR, DUPLICATE, FAILED, KNOWN, LOOK, MATCH, RENDERING, STAGES, State
 from .pairs_table import write_table
+from .progress_lines import WholeProgress
 from .render_stage import render_items
 from .stage import fail, remember_item
 from .workers import Workers
@@ -70,6 +72,7 @@ def run_batch(manifest, options, costs, known_pairs, session):
             done=Done(manifest.folder, fingerprints),
             workers=stack.enter_context(workers),
             same=same,
+            whole=WholeProgress(expected(manifest, options, costs), options.workers),
         )
         _remember_scans(context)
         _report_duplicates(context)

@@ -52,7 +52,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             piece.claim = claims.enter_context(claim)
             for later in STAGES[STAGES.index(stage) :]:
                 piece.outdated |= context.done.outputs(piece.state.item.name, later)
-                context.done.forget(piece.state.item.name, later)
+                context.done.begin(piece.state.item.name, later)
         return True
 
     def finished(task, outcome):
@@ -92,7 +92,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
 
     start = time.time()
     with ExitStack() as claims:
-        context.work(tasks, finished, {"color": "Colorized", "render": "Rendered"}[stage], begin)
+        context.work(stage, tasks, finished, {"color": "Colorized", "render": "Rendered"}[stage], begin, only=True)
 
 
 @dataclass(eq=False)

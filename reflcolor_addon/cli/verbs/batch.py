@@ -26,7 +26,7 @@ HELP = "color all scans of an archive, as a manifest says"
 _GIGABYTE = 1 << 30
 # Share of the free memory that a batch takes by default.
 _SHARE = 0.8
-_LINE_EVERY_S = 5.0
+_LINE_EVERY_S, _PERCENT_EVERY_S = 5.0, 60.0
 
 
 def add_arguments(parser):
@@ -222,18 +222,21 @@ def _openjd(session):
 
 
 def _plain_lines(session, now=time.monotonic):
-    """Progress where there is no terminal: a line for each tenth of a stage, unless they follow each other at once."""
+    """Progress where there is no terminal: a line for each tenth, unless they follow each other at once; where one
+    takes long, for each percent, but at most one a minute."""
     printed, last = 0, now()
 
     def show(fraction, text):
         nonlocal printed, last
-        tenth = int(10 * fraction)
-        if tenth > printed and now() - last < _LINE_EVERY_S:
+        percent, waited = int(100 * fraction), now() - last
+        is_new = percent // 10 > printed // 10 or (percent > printed and waited >= _PERCENT_EVERY_S)
+        if is_new and waited < _LINE_EVERY_S:
             return
-        if tenth > printed:
-            session.say(f"{10 * tenth:3d}%  {text}")
+        if is_new:
+            session.say(f"{percent:3d}%  {text}")
             last = now()
-        printed = tenth
+        if is_new or percent < printed:
+            printed = percent
 
     return show
 
