@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from gltf_files import encoded
 from pxr import Usd, UsdGeom, UsdShade
-from small_scans import random_scan
+from small_scans import random_scan, scan_from_ranges
 
 from reflcolor_addon import Seeds, Settings, colorize, read_scans
 from reflcolor_addon.files.whole import fault_of
@@ -126,6 +126,25 @@ def test_the_render_shows_the_mesh_large_and_in_its_colors(results):
     hues = picture[shown] - picture[shown].mean(axis=-1, keepdims=True)
     truth = rgb - rgb.mean(axis=-1, keepdims=True)
     assert np.abs(hues.mean(axis=0) - truth.mean(axis=0)).max() < 20
+
+
+def test_a_render_with_a_texture_has_its_holes_filled(blender_command, tmp_path):
+    valid = np.ones((20, 30), bool)
+    valid[8:10, 11] = False
+    valid[15, 20] = False
+    reflectance = np.tile(np.linspace(0.2, 0.8, 30), (20, 1))
+    write_ptx(scan_from_ranges(np.full((20, 30), 3.0), reflectance, valid), tmp_path / "w.ptx")
+    Seeds([3, 12], [5, 25], np.array([[220, 60, 30], [30, 90, 200]], np.uint8)).save(tmp_path / "seeds.json")
+    for how in ((), ("--as-measured",)):
+        done = blender_command(
+            *("colorize", tmp_path / "w.ptx", "--seeds", tmp_path / "seeds.json", "--texture", "64"),
+            *("-o", tmp_path / "w.png", "--render", tmp_path / "render.png", *how),
+            timeout=300,
+        )
+        assert done.returncode == 0, done.stderr
+        picture = cv2.imread(str(tmp_path / "render.png")).astype(int)
+        background = (np.abs(picture - picture[0, 0]).max(axis=-1) <= 12).astype(np.uint8)
+        assert cv2.connectedComponents(background)[0] - 1 == (3 if how else 1)
 
 
 def test_an_unwritable_place_is_refused_before_the_work(blender_command, results, tmp_path):

@@ -49,8 +49,8 @@ def write_results(jobs, paths, render_path, picture, progress):
     for job in jobs:
         progress(0.0, "Building the scene")
         give_back()
-        # A light mesh has its holes filled; filled holes have no place on a texture.
-        filled = pictured and picture.filled and job.texture is None
+        # A light mesh has its holes filled.
+        filled = pictured and picture.filled and job.light is None
         surface = shown_surface(job.scan, drop_mixed=picture.drop_mixed) if filled else None
         obj = _add_object(context, job)
         objects.append(obj)

@@ -57,7 +57,9 @@ def look_at(request, *, progress, cancelled):
     try:
         for number, path in enumerate(missing):
             step()
-            progress(_READING + (1 - _READING) * number / len(missing), Path(path).name)
+            # Pictures of scans have no names that tell anything.
+            name = f"{number + 1} of {len(missing)}" if request["look"] == OF_SCANS else Path(path).name
+            progress(_READING + (1 - _READING) * number / len(missing), name)
             try:
                 photo = PhotoImage(Path(path).name, sketch_of(folder, path, hashes[path]))
             except ReflcolorError as error:
