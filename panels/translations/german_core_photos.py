@@ -230,10 +230,11 @@ _RUNS = {
     "{option} {path}: is an input, and would be overwritten; choose another name": (
         "{option} {path}: wird gelesen und würde überschrieben; einen anderen Namen wählen"
     ),
-    "{scan}: no photo could be verified, so there are no seeds; pick four to six pairs and find seeds with --hand, or "
-    "take guessed colors with --guess": (
-        "{scan}: kein Foto konnte bestätigt werden, also gibt es keine Saatpunkte; vier bis sechs Paare setzen und mit "
-        "--hand angeben, oder mit --guess geratene Farben nehmen"
+    "{scan}: no photo could be verified, so there are no seeds; in Blender, pick four to six seeds, each in the scan "
+    "and in the photo, save them, and find seeds with seeds --hand; or take guessed colors with --guess": (
+        "{scan}: kein Foto konnte bestätigt werden, also gibt es keine Saatpunkte; in Blender vier bis sechs "
+        "Saatpunkte setzen, jeden im Scan und im Foto, sie speichern und mit seeds --hand weitere suchen; oder mit "
+        "--guess geratene Farben nehmen"
     ),
     "{file}: has {width} x {height} pixels, expected {columns} x {rows} as the scan {scan} has": (
         "{file}: hat {width} x {height} Pixel, erwartet {columns} x {rows} wie der Scan {scan}"
