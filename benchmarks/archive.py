@@ -26,12 +26,14 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks.rooms import Room
+from benchmarks.rooms import PAINTS, Room
 from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.readers import read_scans
 from reflcolor_addon.files.writers import write_ptx
@@ -50,62 +52,124 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scans", type=int, default=30)
     parser.add_argument("--photos", type=int, default=40)
-    parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0, help="another number is another archive")
-    parser.add_argument("--irregular", action="store_true", help="rooms painted in patches of many sizes, not squares")
+    parser.add_argument("--paint", choices=PAINTS, default="squares", help="what rooms are painted in")
+    add_arguments(parser)
+    arguments = parser.parse_args()
+    folder = folder_of(arguments)
+    right = make(folder, arguments.scans, arguments.photos, arguments.seed, arguments.paint)
+    shown = rooms_of(arguments.scans, arguments.photos, arguments.seed)[1]
+
+    def off(scan, photo, own, model):
+        room, number = Room(shown[int(photo[-2:])], arguments.paint), int(photo[-2:])
+        return off_by(own, model, room, number, place_of(int(scan[-2:]), arguments.scans))
+
+    archive = Archive(
+        folder=folder,
+        scans=[f"scan_{scan:02d}" for scan in range(arguments.scans)],
+        photos=[f"photo_{photo:02d}" for photo in range(arguments.photos)],
+        true={(f"scan_{scan:02d}", f"photo_{photo:02d}") for scan, photo in right},
+        off=off,
+    )
+    measure(archive, arguments)
+
+
+def add_arguments(parser):
+    """Declare what every command takes that measures a batch over an archive."""
+    parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--sample", type=int, default=20, help="how many wrong pairs are matched for their cost")
     parser.add_argument("--folder", type=Path, help="where to put the archive, and to keep it")
     parser.add_argument("--minutes", type=float, default=1e6, help="stop after so long; the next call goes on")
-    arguments = parser.parse_args()
+
+
+def folder_of(arguments):
+    """Return the archive's folder, and make it."""
     folder = arguments.folder or Path(tempfile.mkdtemp(prefix="archive-"))
     folder.mkdir(parents=True, exist_ok=True)
-    right = make(folder, arguments.scans, arguments.photos, arguments.seed, arguments.irregular)
-    known = _Known(folder / "measured.json", time.monotonic() + 60 * arguments.minutes)
-    pairs = sorted((f"scan_{scan:02d}", f"photo_{photo:02d}") for scan, photo in right)
-    shown = rooms_of(arguments.scans, arguments.photos, arguments.seed)[1]
-    rooms = {photo: Room(shown[int(photo[-2:])], arguments.irregular) for _, photo in pairs}
-    true = [
-        known.of("+".join(pair), partial(matched, folder, *pair, rooms[pair[1]], arguments.scans)) for pair in pairs
-    ]
+    return folder
+
+
+@dataclass(frozen=True, kw_only=True)
+class Archive:
+    """Scans and photos in a folder with the manifest batch.toml, and the truth about them.
+
+    Parameters
+    ----------
+    folder : Path
+    scans, photos : list of str
+        Names of the files, without the suffix.
+    true : set of (str, str)
+        Which scan a photo shows.
+    unknown : set of (str, str)
+        Pairs that may show something of each other; whatever is said of these is neither right nor wrong.
+    off : callable
+        ``off(scan, photo, own, model)``: how far a camera of a true pair is off, as a share of the photo's width; NaN
+        where that is not known. ``own`` is the Scan.
+    """
+
+    folder: Path
+    scans: list
+    photos: list
+    true: set
+    unknown: set = field(default_factory=set)
+    off: Callable
+
+    def scan_file(self, name):
+        """Return the file of a scan."""
+        return self.folder / f"{name}.ptx"
+
+    def photo_file(self, name):
+        """Return the file of a photo."""
+        return next(path for path in (self.folder / f"{name}{end}" for end in (".png", ".jpg")) if path.is_file())
+
+
+def measure(archive, arguments):
+    """Match what shows whether a batch is right, run the batch, and print the figures."""
+    known = _Known(archive.folder / "measured.json", time.monotonic() + 60 * arguments.minutes)
+    pairs = sorted(archive.true)
+    true = [known.of("+".join(pair), partial(matched, archive, *pair)) for pair in pairs]
     rng, wrong = np.random.default_rng(6), []
     while len(wrong) < arguments.sample:
-        pair = f"scan_{rng.integers(arguments.scans):02d}", f"photo_{rng.integers(arguments.photos):02d}"
-        if pair not in pairs:
-            wrong.append(known.of("+".join(pair), partial(matched, folder, *pair)))
+        pair = archive.scans[rng.integers(len(archive.scans))], archive.photos[rng.integers(len(archive.photos))]
+        if pair not in archive.true | archive.unknown:
+            wrong.append(known.of("+".join(pair), partial(matched, archive, *pair)))
     while not (batch := known.of("batch", dict)).get("done"):
-        known.set("batch", run_batch(folder, arguments.jobs, batch, known.end))
-    table = rows(folder)
+        known.set("batch", run_batch(archive.folder, arguments.jobs, batch, known.end))
+    table = rows(archive.folder)
     found, refused = (
-        {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] == shows}
+        {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] == shows} - archive.unknown
         for shows in ("yes", "contradiction")
     )
     matched_pairs = sum(row["shows"] != "not tried" for row in table)
     away = {pair: own["off"] for pair, own in zip(pairs, true, strict=True) if own["verified"]}
-    verified = {pair for pair, off in away.items() if off <= MOST_OFF}
+    verified = {pair for pair, off in away.items() if not off > MOST_OFF}
     evidence = {(row["scan"], Path(row["photo"]).stem): row["evidence"] for row in table}
-    off = {
-        pair: away_of(folder, *pair, evidence[pair], rooms[pair[1]], arguments.scans)
-        for pair in found.intersection(pairs)
-    }
-    correct = {pair for pair, away in off.items() if away <= MOST_OFF}
+    off = {pair: away_of(archive, *pair, evidence[pair]) for pair in found & archive.true}
+    correct = {pair for pair, away in off.items() if not away > MOST_OFF}
     lost, false = sorted(verified - found), sorted(found - correct)
-    count = arguments.scans * arguments.photos
+    count = len(archive.scans) * len(archive.photos)
     of_true, of_wrong = (float(np.mean([own["processor"] for own in some])) for some in (true, wrong))
     everything = of_true * len(pairs) + of_wrong * (count - len(pairs))
-    print(f"{arguments.scans} scans x {arguments.photos} photos = {count} pairs, {len(pairs)} of them true")
+    print(f"{len(archive.scans)} scans x {len(archive.photos)} photos = {count} pairs, {len(pairs)} of them true")
     print(f"matching alone verifies {len(away)} true pairs, {len(verified)} with a right camera; all are off by")
-    print(" ", *(f"{off:.1%}" for off in sorted(away.values())))
+    print(" ", *_percent(away.values()))
     print(f"true pairs lost: {len(lost)} of {len(verified)} ({len(lost) / max(len(verified), 1):.1%})", *lost)
     print(f"pairs found beyond that: {len(correct - verified)}")
     print(f"false pairs: {len(false)} of {len(found)} found", *false)
     print("cameras that the batch found are off by")
-    print(" ", *(f"{away:.1%}" for away in sorted(off.values())))
-    print(f"contradictions: {len(refused - verified)} false pairs, {len(refused & verified)} true ones")
+    print(" ", *_percent(off.values()))
+    print(f"contradictions: {len(refused - archive.true)} false pairs, {len(refused & verified)} true ones")
     print(f"matching alone verifies {sum(own['verified'] for own in wrong)} of {len(wrong)} wrong pairs")
     print(f"pairs matched after the looks: {matched_pairs} ({matched_pairs / count:.1%})")
     print(f"processor time of the batch: {batch['processor']:.0f} s ({batch['seconds']:.0f} s by the clock)")
     print(f"of all pairs: {everything:.0f} s ({of_true:.1f} s a true pair, {of_wrong:.1f} s a wrong one)")
     print(f"ratio: {batch['processor'] / everything:.3f}")
+
+
+def _percent(shares):
+    known = sorted(share for share in shares if np.isfinite(share))
+    unknown = len(shares) - len(known)
+    return [*(f"{share:.1%}" for share in known), *([f"and {unknown} whose camera is not known"] if unknown else [])]
 
 
 class _Known:
@@ -127,7 +191,7 @@ class _Known:
         self._path.write_text(json.dumps(self._values, indent=1))
 
 
-def make(folder, scans, photos, seed=0, irregular=False, size=1.0):
+def make(folder, scans, photos, seed=0, paint="squares", size=1.0):
     """Write an archive and its manifest, batch.toml; return which pairs (scan, photo) show the same room.
 
     ``size`` is that of scans and photos, beside 80 x 130 and 240 x 180 pixels.
@@ -137,11 +201,11 @@ def make(folder, scans, photos, seed=0, irregular=False, size=1.0):
         path = folder / f"scan_{scan:02d}.ptx"
         if not path.is_file():
             grid = {"rows": round(80 * size), "columns": round(130 * size), "step_deg": 0.6 / size}
-            write_ptx(Room(room, irregular).scan(**grid, place=place_of(scan, scans), name=path.stem), path)
+            write_ptx(Room(room, paint).scan(**grid, place=place_of(scan, scans), name=path.stem), path)
     for photo, room in enumerate(shown):
         path = folder / f"photo_{photo:02d}.png"
         if not path.is_file():
-            write_png(path, Room(room, irregular).photo(photo, round(240 * size), round(180 * size)))
+            write_png(path, Room(room, paint).photo(photo, round(240 * size), round(180 * size)))
     lines = ('format = "reflcolor-batch"', "version = 1", 'output = "colored"', 'scans = "scan_*.ptx"')
     lines += ('photos = "photo_*.png"', 'write = "png"', f"settings = {{ slic_segments = {SEGMENTS} }}")
     (folder / "batch.toml").write_text("\n".join(lines) + "\n")
@@ -189,26 +253,26 @@ def rows(folder):
         return list(csv.DictReader(file))
 
 
-def matched(folder, scan, photo, room=None, scans=0):
-    """Match one pair, as nobody would who knew better; of a photo of a scan's room, how far off its camera is, too."""
-    (own,) = read_scans(folder / f"{scan}.ptx")
+def matched(archive, scan, photo):
+    """Match one pair, as nobody would who knew better; of a true pair, how far off the camera is, too."""
+    (own,) = read_scans(archive.scan_file(scan))
     before = processor_time()
-    matching = match_photos(own, [folder / f"{photo}.png"], Settings(slic_segments=SEGMENTS))
+    matching = match_photos(own, [archive.photo_file(photo)], Settings(slic_segments=SEGMENTS))
     found = {"verified": matching.photos[0].verified, "processor": processor_time() - before}
-    if room is not None and found["verified"]:
-        found["off"] = off_by(own, matching.photos[0].model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
+    if (scan, photo) in archive.true and found["verified"]:
+        found["off"] = archive.off(scan, photo, own, matching.photos[0].model)
     return found
 
 
-def away_of(folder, scan, photo, evidence, room, scans):
-    """How far off the camera is by which a batch placed a photo of a scan's room: of all that it found there that of
-    the evidence in its table."""
-    (own,) = read_scans(folder / f"{scan}.ptx")
-    for kept in map(json.loads, (path.read_text() for path in folder.glob("colored/*/matched/*.json"))):
+def away_of(archive, scan, photo, evidence):
+    """How far off the camera is by which a batch placed a photo on its scan: of all that it found there that of the
+    evidence in its table."""
+    (own,) = read_scans(archive.scan_file(scan))
+    for kept in map(json.loads, (path.read_text() for path in archive.folder.glob("colored/*/matched/*.json"))):
         if Path(kept["scan"]).stem == scan and Path(kept["photo"]).stem == photo:
             found = from_document(kept["registration"])
             if f"{round(found.evidence.share, 3):.2f}" == evidence:
-                return off_by(own, found.model, room, int(photo[-2:]), place_of(int(scan[-2:]), scans))
+                return archive.off(scan, photo, own, found.model)
     sys.exit(f"{scan}, {photo}: no camera of evidence {evidence} was kept")
 
 

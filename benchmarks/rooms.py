@@ -3,10 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from reflcolor_addon.matching.models import Camera, camera_axes
 from reflcolor_addon.scan.scan import Scan
 
+PAINTS = ("squares", "patches", "stones")
 _HEIGHT_M = 1.5
 _NEAREST_M, _USUAL_M = 0.3, 1.2
 
@@ -17,12 +19,12 @@ class Room:
     Parameters
     ----------
     number : int
-    irregular : bool
-        Paint it in patches of many sizes, instead of squares of one size on each surface. Squares on the walls of
-        different rooms have the same edges, as tiles have.
+    paint : str
+        Of `PAINTS`: "squares" of one size on each surface, as tiles are; "patches", rectangles of many sizes; or
+        "stones", patches with edges in all directions. Squares on the walls of different rooms have the same edges.
     """
 
-    def __init__(self, number, irregular=False):
+    def __init__(self, number, paint="squares"):
         rng = np.random.default_rng((number, 1))
         self._number = number
         self._size = width, depth, height = rng.uniform(4, 9), rng.uniform(4, 9), rng.uniform(2.6, 4)
@@ -35,7 +37,7 @@ class Room:
                 faces += _box((x, y, size[2] / 2), size)
         for _ in range(rng.integers(12, 20)):
             faces.append(self._on_a_wall(rng))
-        self._faces = [(*face, *_paint(rng, face, irregular)) for face in faces]
+        self._faces = [(*face, *_painted(rng, face, paint)) for face in faces]
 
     @property
     def depth_m(self):
@@ -45,7 +47,7 @@ class Room:
     @property
     def cells_m(self):
         """The size of the squares that its walls, its floor and its ceiling are painted in."""
-        return [round(float(np.median(np.diff(cuts[0]))), 2) for *_, cuts, _, _ in self._faces[:6]]
+        return [round(float(np.median(np.diff(pattern.cuts[0]))), 2) for *_, pattern, _, _ in self._faces[:6]]
 
     def _on_a_wall(self, rng):
         """A door, a window or a painting."""
@@ -78,7 +80,7 @@ class Room:
         """
         nearest, light = np.full(rays.shape[:-1], np.inf), np.zeros(rays.shape)
         reflectance = np.zeros(rays.shape[:-1])
-        for corner, first, second, cuts, paint, infrared in self._faces:
+        for corner, first, second, pattern, paint, infrared in self._faces:
             normal = np.cross(first, second)
             normal /= np.linalg.norm(normal)
             with np.errstate(divide="ignore", invalid="ignore"):
@@ -88,10 +90,10 @@ class Room:
             met = (distance > 1e-6) & (distance < nearest)
             for length, side in zip(along, (first, second), strict=True):
                 met &= (length >= 0) & (length <= np.linalg.norm(side))
-            row, column = (np.searchsorted(cut, length[met], "right") for cut, length in zip(cuts, along, strict=True))
+            patch = pattern.at(*(length[met] for length in along))
             # Floors and ceilings are lit otherwise than walls.
             shade = 0.55 + 0.27 * abs(normal[0]) + 0.2 * abs(normal[2])
-            light[met], reflectance[met] = paint[row, column] * shade, infrared[row, column]
+            light[met], reflectance[met] = paint[patch] * shade, infrared[patch]
             nearest[met] = distance[met]
         return nearest, light, reflectance
 
@@ -146,18 +148,43 @@ def _box(center, size):
     return [(low, x, z), (low + y, x, z), (low, y, z), (low + x, y, z), (low, x, y), (low + z, x, y)]
 
 
-def _paint(rng, face, irregular):
-    """Where a face's patches end along both sides, in meters, their colors and their reflectance in infrared, which is
-    its own."""
+class _Grid:
+    """Rectangles that end at ``cuts`` along both sides, in meters."""
+
+    def __init__(self, cuts):
+        self.cuts = cuts
+
+    def at(self, *along):
+        """The number of the rectangle at each place."""
+        row, column = (np.searchsorted(cut, length, "right") for cut, length in zip(self.cuts, along, strict=True))
+        return row * (len(self.cuts[1]) + 1) + column
+
+
+class _Stones:
+    """Patches around ``centers`` (N, 2), meters: every place belongs to the nearest."""
+
+    def __init__(self, centers):
+        self._tree = KDTree(centers)
+
+    def at(self, *along):
+        """The number of the patch at each place."""
+        return self._tree.query(np.stack(along, axis=-1))[1]
+
+
+def _painted(rng, face, how):
+    """The pattern of a face, the colors of its patches, and their reflectance in infrared, which is its own."""
     cell = rng.choice([0.25, 0.4, 0.6])
     shape = tuple(int(np.linalg.norm(side) / cell) + 1 for side in face[1:])
     base, spread = rng.uniform(0.15, 0.9, 3), rng.uniform(0.1, 0.3)
     paint = base + spread * rng.standard_normal((*shape, 1)) + 0.1 * rng.standard_normal((*shape, 3))
     infrared = rng.uniform(0.2, 0.9) + spread * rng.standard_normal(shape)
     cuts = [cell * np.arange(1, count) for count in shape]
-    if irregular:
-        # As many patches as before, of sizes of their own.
+    lengths = [np.linalg.norm(side) for side in face[1:]]
+    pattern = _Grid(cuts)
+    # As many patches as there are squares.
+    if how == "patches":
         sizes = [rng.uniform(0.2, 1.8, count) for count in shape]
-        lengths = [np.linalg.norm(side) for side in face[1:]]
-        cuts = [np.cumsum(own)[:-1] * length / own.sum() for own, length in zip(sizes, lengths, strict=True)]
-    return cuts, np.clip(paint, 0.03, 1), np.clip(infrared, 0.02, 1)
+        pattern = _Grid([np.cumsum(own)[:-1] * length / own.sum() for own, length in zip(sizes, lengths, strict=True)])
+    elif how == "stones":
+        pattern = _Stones(rng.uniform(0, lengths, (infrared.size, 2)))
+    return pattern, np.clip(paint, 0.03, 1).reshape(-1, 3), np.clip(infrared, 0.02, 1).ravel()

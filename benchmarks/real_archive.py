@@ -1,0 +1,147 @@
+"""Which photo shows which scan of an archive of real scans: python -m benchmarks.real_archive [--folder DIR]
+
+30 real scans and 40 photos. Twenty scans are of benchmarks.trust_cases (a church from one place in six directions, a
+town square in three, cars before a garage, pumps, a desk, frames of spinning lidars); ten are the same places once
+more, as if scanned again: part of the grid, coarser where it is fine, with holes. Photos: of nine scans their own
+colors twice, warped and cut out, in other light, as JPEG; photos of cameras that stood beside the scanner; and 14 of
+other things. What is printed is that of benchmarks.archive, with the same options.
+
+Where a photo is made of a scan's own colors, or its camera is calibrated, it is known how far a camera is off. Photos
+of the church show scans turned by up to 30 degrees, too; their cameras there are not known. What frames of the same
+vehicle have in common is not known, either, so nothing that is said of these pairs counts.
+"""
+
+import argparse
+
+import cv2
+import numpy as np
+
+from benchmarks import matching_pairs, real_scans, trust_cases
+from benchmarks.archive import SEGMENTS, Archive, add_arguments, folder_of, measure
+from benchmarks.matching_pairs import DATA, K4A_PHOTO, PUMP_PHOTO
+from reflcolor_addon.files.writers.ptx import write_ptx
+
+_SCANS = tuple(name for name in trust_cases.SCANS if not name.endswith(("_every_3rd", "_large", "_all_around")))
+_AGAIN = ("doria", "pumpA", "k4a", "bildstein_05", "bildstein_15", "bildstein_25", "bremen_20", "nus_front")
+_AGAIN += ("pjlab_ours3", "kitti_000008")
+_OTHER = ("desk", "astronaut", "brick", "camera", "chelsea", "coffee", "coins", "grass", "gravel", "motorcycle_left")
+_OTHER += ("page", "rocket", "text", "moon")
+# Corners of what photos show of a scan's own colors, as shares of the grid, and where they are in the photo.
+_ALL = ((0, 0), (1, 0), (1, 1), (0, 1))
+_CUT = ((0.25, 0.1), (1.0, 0.1), (1.0, 0.9), (0.25, 0.9))
+_SHAPES = {"warped": (_ALL, ((0.12, 0.06), (0.93, 0), (1, 0.95), (0, 0.86))), "cut": (_CUT, _ALL)}
+_LIGHT = {"warped": (1.08, 0.95, 0.8), "cut": (1.02, 1.0, 0.95)}
+# From where on the grid a place is scanned again, and how fine a grid must be to be made coarser.
+_FROM, _FINE = 0.15, 300
+
+
+def main():
+    """Make the archive, run the batch, print the figures."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add_arguments(parser)
+    arguments = parser.parse_args()
+    folder = folder_of(arguments)
+    scans = [*_SCANS, *(f"{name}_again" for name in _AGAIN)]
+    for name in scans:
+        path = folder / f"{name}.ptx"
+        if not path.is_file():
+            write_ptx(_scan(name), path)
+    photos = dict(_photos())
+    for name, jpeg in photos.items():
+        (folder / f"{name}.jpg").write_bytes(jpeg)
+    lines = ('format = "reflcolor-batch"', "version = 1", 'output = "colored"', 'scans = "*.ptx"')
+    lines += ('photos = "*.jpg"', 'write = "png"', f"settings = {{ slic_segments = {SEGMENTS} }}")
+    (folder / "batch.toml").write_text("\n".join(lines) + "\n")
+    kinds = {(scan, photo): _shows(scan.removesuffix("_again"), photo) for scan in scans for photo in photos}
+    archive = Archive(
+        folder=folder,
+        scans=scans,
+        photos=list(photos),
+        true={pair for pair, kind in kinds.items() if kind},
+        unknown={pair for pair, kind in kinds.items() if kind is None},
+        off=_off,
+    )
+    measure(archive, arguments)
+
+
+def _scan(name):
+    whole = trust_cases.scan(name.removesuffix("_again"))
+    if not name.endswith("_again"):
+        return whole
+    _, first, every = _again(whole.shape)
+    part = np.s_[::every, first::every]
+    coarser = type(whole)(
+        name=name, points=whole.points[part], reflectance=whole.reflectance[part], valid=whole.valid[part]
+    )
+    return trust_cases.with_holes(coarser, "blobs 3")
+
+
+def _again(shape):
+    """The first row and column of a place that is scanned again, and how many of the grid's pixels one is."""
+    return 0, round(_FROM * shape[1]), 2 if shape[0] >= _FINE else 1
+
+
+def _photos():
+    """Yield the name and the JPEG of each photo."""
+    for name in real_scans.NAMES:
+        color = real_scans.load(name, DATA).color
+        for kind in _SHAPES:
+            yield f"{name} {kind}", _jpeg(_taken(color, kind))
+    yield "k4a beside", K4A_PHOTO.read_bytes()
+    yield "pumpA beside", PUMP_PHOTO.read_bytes()
+    for name in trust_cases.PAIRS:
+        yield f"{name} photo", (DATA / "pairs" / name / "photo.jpg").read_bytes()
+    for name in _OTHER:
+        yield name, _jpeg(trust_cases.photographs()[name])
+
+
+def _jpeg(rgb):
+    return cv2.imencode(".jpg", rgb[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes()
+
+
+def _homography(shape, kind):
+    """(3, 3) from a scan's grid, in pixels, to a photo of its own colors; and the photo's (width, height)."""
+    size = np.float32([shape[1], shape[0]])
+    corners, moved = (np.float32(places) * size for places in _SHAPES[kind])
+    span = np.ptp(corners, axis=0) / size
+    wide = (2 * size * span).astype(int)
+    return cv2.getPerspectiveTransform(corners, moved * 2 * span), (int(wide[0]), int(wide[1]))
+
+
+def _taken(color, kind):
+    """A scan's own colors as a photo, twice as large, in other light."""
+    homography, size = _homography(color.shape, kind)
+    large = cv2.warpPerspective(color, homography, size, flags=cv2.INTER_CUBIC)
+    return np.clip((large / 255.0) ** 1.1 * np.array(_LIGHT[kind]) * 255, 0, 255).astype(np.uint8)
+
+
+def _shows(scan, photo):
+    """Whether a photo shows a scan; None where that is not known."""
+    of = photo.split(" ")[0]
+    if scan == of:
+        return True
+    if scan.startswith("bildstein") and of.startswith("bildstein"):
+        return matching_pairs.related(scan, of)
+    return None if scan in trust_cases.PAIRS and of in trust_cases.PAIRS and scan[:3] == of[:3] else False
+
+
+def _off(scan, photo, own, model):
+    """See `Archive`."""
+    name, (of, kind) = scan.removesuffix("_again"), photo.split(" ")
+    if name in trust_cases.PAIRS:
+        return trust_cases.off(name, model) if name == scan or model.kind == "pose" else np.nan
+    if name != of or kind not in _SHAPES:
+        return np.nan
+    rows, columns = np.nonzero(own.valid)
+    shape = trust_cases.scan(name).shape
+    row, column, every = _again(shape) if name != scan else (0, 0, 1)
+    grid = np.stack([column + every * columns + 0.5, row + every * rows + 0.5], axis=-1)
+    homography, size = _homography(shape, kind)
+    xy = cv2.perspectiveTransform(grid[None], homography)[0]
+    seen = (xy >= 0).all(axis=1) & (xy < size).all(axis=1)
+    away = model.project(model.sites_of(own, rows, columns))[0][seen] * size[0] / model.width - xy[seen]
+    return float(np.nanmedian(np.hypot(*away.T)) / size[0])
+
+
+if __name__ == "__main__":
+    main()
