@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_scans import random_scan
 
+from benchmarks.rooms import Room
 from reflcolor_addon.batch.archive import two_looks
 from reflcolor_addon.batch.archive.candidates import (
     ALL_PAIRS,
@@ -29,6 +30,9 @@ from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.readers.e57_file import acquired_at
 from reflcolor_addon.files.readers.options import ReadOptions
 from reflcolor_addon.files.writers import write_ptx
+from reflcolor_addon.matching.photo_image import PhotoImage
+from reflcolor_addon.matching.registration.registration import ScanViews
+from reflcolor_addon.matching.registration.sphere_map import SphereMap
 
 NOON = "2024:05:17 12:00:00"
 _NOON_S = datetime(2024, 5, 17, 12, tzinfo=UTC).timestamp()
@@ -219,3 +223,26 @@ def test_a_second_look_takes_up_the_directions_of_the_first_one(tmp_path, monkey
     # Searched for anew, they would not be found.
     monkeypatch.setattr(two_looks, "Search", None)
     assert looked(SECOND) == anew
+
+
+def test_a_first_look_takes_no_longer_where_a_scan_has_smaller_pixels(monkeypatch):
+    # A first look correlates maps; how long that takes depends on their size.
+    room, sizes, correlated = Room(1, "stones"), [], SphereMap._correlation
+
+    def counted(self, spectra, *more):
+        found = correlated(self, spectra, *more)
+        sizes.append(found.size)
+        return found
+
+    monkeypatch.setattr(SphereMap, "_correlation", counted)
+    # What is in the middle of the scan, enlarged: 36 degrees, 4 below the horizon.
+    middle, looks = np.uint8(255 * np.clip(room.scan().reflectance[10:70, 35:95], 0, 1)), []
+    photo = PhotoImage("photo", np.kron(middle, np.ones((4, 4), np.uint8))[..., None].repeat(3, axis=2))
+    for finer in (1, 2):
+        views = ScanViews(room.scan(80 * finer, 130 * finer, 0.6 / finer))
+        sizes.clear()
+        _, directions = two_looks.first_look(views, photo)
+        looks.append(sum(sizes))
+        # Score, focal length, yaw, pitch, roll, place.
+        assert min(np.abs(np.subtract(found[1:5], [1.5, 0.0, -4.0, 0.0])).max() for found in directions) < 2
+    assert looks[1] < 1.2 * looks[0]

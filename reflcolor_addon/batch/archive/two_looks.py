@@ -12,6 +12,8 @@ from ...matching.registration.search import Search
 from ...matching.registration.sphere_map import Guess
 
 _GUESSES, _FINER = 6, 2
+# Size in degrees of the pixels that directions are told by: finer ones take longer, and tell hardly more.
+_STEP_DEG = 0.6
 # As a camera aside is fitted: pixels, tile, radius, blur and spread, on the coarse level and on the middle one.
 _ROUGHLY, _CLOSER = (*COARSE, 10, 1.5, 1.2), (*MIDDLE, 10, 1.0, 0.8)
 
@@ -38,7 +40,8 @@ def first_look(views, photo, step=lambda: None):
     """
     guesses = []
     if views.untestable is None and np.ptp(photo.gray) > 0:
-        guesses = Search(views, photo).directions(step)[:_GUESSES]
+        coarser = max(1, round(_STEP_DEG / views.step_deg))
+        guesses = Search(views, photo).directions(step, coarser=coarser)[:_GUESSES]
     directions = [[*map(float, astuple(guess)[:-1]), list(map(float, guess.center))] for guess in guesses]
     return max(directions[0][0], 0.0) if directions else 0.0, directions
 

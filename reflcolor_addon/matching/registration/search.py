@@ -95,12 +95,13 @@ class Search:
         guesses = _unlike_ones(self._everywhere(places, _COARSER, _ASIDE_FOCALS, _ASIDE_PITCHES, 2, step))
         return _unlike_ones(self._around(guesses[:_LOOKED_AT], (0.93, 1.0, 1.07), (0.0,), 1, step))
 
-    def directions(self, step=lambda: None, focals=_FOCALS):
+    def directions(self, step=lambda: None, focals=_FOCALS, coarser=1):
         """Return `Guess`es of a photo taken from the scanner's place before they are sharpened; see `from_scanner`.
 
-        ``focals`` are the focal lengths that are tried, in lengths of the photo's longer side.
+        ``focals`` are the focal lengths that are tried, in lengths of the photo's longer side. The maps are so many
+        times ``coarser``.
         """
-        return _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], 1, focals, _PITCHES, 3, step))
+        return _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], coarser, focals, _PITCHES, 3, step))
 
     def _everywhere(self, places, coarser, focals, pitches, count, step):
         """The best guesses from each place for each focal length and pitch."""
