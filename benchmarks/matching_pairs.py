@@ -129,7 +129,7 @@ def unrelated(scenes):
     for name in real_scans.NAMES:
         scan = real_scans.load(name, DATA)
         for other, photo in photos.items():
-            if not related(name, other):
+            if not _related(name, other):
                 yield scan, other, photo
     folders = {name: cases.simulated(scenes / name, script) for name, _, _, script in _SCENES}
     for name, scan_name, _, _ in _SCENES:
@@ -171,7 +171,7 @@ def _real(scan, label, photo):
     return Pair(scan, label, (photo,), scan.color, real_scans.has_truth(scan))
 
 
-def related(name, other):
+def _related(name, other):
     """Whether a photo shows anything of a scan: it is of the same place, or turned by at most 60 degrees."""
     if name.startswith("bildstein") and other.startswith("bildstein"):
         return abs(int(name[-2:]) - int(other[-2:])) < 10

@@ -46,7 +46,7 @@ class Room:
 
     @property
     def cells_m(self):
-        """The size of the squares that its walls, its floor and its ceiling are painted in."""
+        """The size of the squares that its walls, its floor and its ceiling are painted in, where these are squares."""
         return [round(float(np.median(np.diff(pattern.cuts[0]))), 2) for *_, pattern, _, _ in self._faces[:6]]
 
     def _on_a_wall(self, rng):

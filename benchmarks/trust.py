@@ -54,9 +54,8 @@ _DECIDING = (
     *(f"registration/{name}" for name in ("features", "fitting", "refinement", "registration", "search", "sphere_map")),
     *("registration/tiles", "registration/verification", "registration/repetition"),
 )
-# Earlier states of these that decide alike, by the later one. a9c31609: maps could not be made coarser for the looks of
-# archives.
-_ALIKE = {"81338670": {"a9c31609"}}
+# States of these that decide alike: since a9c31609, the maps that archives are looked at with can be coarser.
+_ALIKE = {"a9c31609", "81338670"}
 
 
 def main():
@@ -73,8 +72,7 @@ def main():
     parser.add_argument("--every-foreign", action="store_true", help="all photographs for each scan, not some of them")
     arguments = parser.parse_args()
     ends = time.monotonic() + 60 * arguments.minutes
-    counted = {_code()} | _ALIKE.get(_code(), set())
-    known = {try_["key"]: try_ for try_ in _read(arguments.results) if try_["code"] in counted}
+    known = {try_["key"]: try_ for try_ in counted(arguments.results)}
     photographs = {}
     arguments.results.parent.mkdir(parents=True, exist_ok=True)
     with arguments.results.open("a", encoding="utf-8") as file:
@@ -241,6 +239,12 @@ def _code():
                 del node.body[0]
         digest.update(ast.unparse(tree).encode())
     return digest.hexdigest()[:8]
+
+
+def counted(path=RESULTS):
+    """Yield the tries in a file that were made by code which decides as today's does."""
+    alike = _ALIKE if _code() in _ALIKE else {_code()}
+    yield from (try_ for try_ in _read(path) if try_["code"] in alike)
 
 
 def _read(path):

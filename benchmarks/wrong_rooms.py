@@ -1,13 +1,12 @@
 """How close wrong photos come to be verified, in simulated rooms and on real scans: python -m benchmarks.wrong_rooms
 
 Photos of one room are matched with scans of others, in rooms as benchmarks.archive paints them (--paint). Beside them
-stand the photographs of other things and places that benchmarks.trust tried on real scans. Of each kind the evidence is
-printed (1 is needed to be verified): the share of the pairs with at least so much, and the most. Rooms in which wrong
-photos come closer than on real scans are harder than what they stand for.
+stand the photographs of other things and places that benchmarks.trust tried on real scans, most of them with holes. Of
+each kind the evidence is printed (1 is needed to be verified): the share of the pairs with at least so much, and the
+most. Rooms in which wrong photos come closer than on real scans are harder than what they stand for.
 """
 
 import argparse
-import json
 
 import numpy as np
 
@@ -29,7 +28,7 @@ def main():
     print(f"{'wrong pairs of':22} {'pairs':>6}" + "".join(f"  >={bar:.1f}" for bar in _BARS) + "   most")
     for paint in arguments.paint or PAINTS:
         row(f"rooms in {paint}", in_rooms(arguments.pairs, paint))
-    tries = map(json.loads, trust.RESULTS.read_text(encoding="utf-8").splitlines())
+    tries = trust.counted()
     row("real scans and photos", [try_["evidence"] for try_ in tries if try_["kind"] in ("foreign", "elsewhere")])
 
 
@@ -45,9 +44,9 @@ def in_rooms(count, paint):
 
 
 def row(kind, evidence):
-    """Print one."""
+    """Print one row of the table."""
     evidence = np.array(evidence)
-    shares = "".join(f"{np.mean(evidence >= bar):6.1%}" for bar in _BARS)
+    shares = "".join(f"{np.mean(evidence >= bar):7.1%}" for bar in _BARS)
     print(f"{kind:22} {len(evidence):6d}{shares}   {evidence.max():.2f}", flush=True)
 
 

@@ -4,6 +4,7 @@ import csv
 import json
 from dataclasses import MISSING, fields
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from small_scans import random_scan
 from reflcolor_addon import Seeds, Settings, read_scans
 from reflcolor_addon.batch.archive.costs import Costs
 from reflcolor_addon.batch.archive.done import Done
-from reflcolor_addon.batch.archive.estimate import estimate
+from reflcolor_addon.batch.archive.estimate import estimate, expected
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.batch.archive.options import Options
@@ -182,9 +183,25 @@ def test_where_a_tenth_takes_long_a_percent_is_told_at_most_once_a_minute():
     assert said == ["  2%  at work", "  5%  at work", "  6%  at work"]
 
 
+@pytest.mark.parametrize("stages", [("look",), ("match",), ("look", "match", "color", "render")])
+def test_what_is_expected_is_what_the_stages_need(stages):
+    items = [
+        SimpleNamespace(offered=True, plan=SimpleNamespace(scans=[Path(f"{k}.ptx")], outputs=[], seeds=None, photos=[]))
+        for k in range(30)
+    ]
+    manifest = SimpleNamespace(items=items, photos=[Path(f"{k}.jpg") for k in range(40)])
+    costs = Costs(scans={item.plan.scans[0]: 1_000_000 for item in items})
+    found = expected(manifest, Options(stages=stages, workers=1, memory=1 << 30), costs)
+    matches = {} if stages == ("look",) else {"match": 30 * (0.1 * 40 + 10 * 40 * 9 / 30)}
+    colors = {"color": 30 * 9.5, "render": 0.0} if "color" in stages else {}
+    looks = 0.25 * 30 * 40 * (1 if stages == ("look",) else 2) + (0 if stages == ("look",) else 0.01 * 40 * 20)
+    assert found == pytest.approx({"look": looks, **matches, **colors})
+
+
 def test_progress_for_an_engine_of_a_render_farm(archive, batch):
     status, out, _ = batch("--openjd")
-    assert status == 0 and "openjd_progress: 100" in out
+    told = [int(line.split()[1]) for line in out.splitlines() if line.startswith("openjd_progress:")]
+    assert status == 0 and told[-1] == 100 and told == sorted(set(told))
     (archive / "hall_2.ptx").write_text("no scan\n")
     status, out, _ = batch("--openjd", "--keep-going")
     assert status == 1 and "openjd_fail: batch.toml: 1 of 3 failed: hall_2" in out

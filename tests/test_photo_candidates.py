@@ -246,3 +246,11 @@ def test_a_first_look_takes_no_longer_where_a_scan_has_smaller_pixels(monkeypatc
         # Score, focal length, yaw, pitch, roll, place.
         assert min(np.abs(np.subtract(found[1:5], [1.5, 0.0, -4.0, 0.0])).max() for found in directions) < 2
     assert looks[1] < 1.2 * looks[0]
+
+
+@pytest.mark.parametrize(("wide", "step", "expected"), [(78, 0.6, 1), (78, 0.1, 2), (20, 0.05, 2), (20, 0.3, 1)])
+def test_a_narrow_scan_is_looked_at_with_enough_pixels(wide, step, expected):
+    columns = round(wide / step)
+    views = ScanViews(Room(1).scan(columns // 2, columns, step))
+    assert two_looks.coarseness(views) == expected
+    assert wide / (views.step_deg * expected) >= min(0.99 * wide / step, 85)

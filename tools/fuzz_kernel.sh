@@ -22,8 +22,9 @@ if [ "$compiler" = none ]; then
     echo "fuzz_kernel: no compiler with address and undefined-behavior sanitizers" >&2
     exit 77
 fi
-# For a few rounds, translating takes longer than running.
-[ "$rounds" -gt 5000 ] && level=-O1 || level=-O0
+# For a few rounds, compiling takes longer than running.
+level=-O0
+if [ "$rounds" -gt 5000 ]; then level=-O1; fi
 first=
 for options in "" "-DRC_SCALAR" "-DRC_BAND_PIXELS=1 -DRC_BAND_CELLS=0"; do
     # shellcheck disable=SC2086

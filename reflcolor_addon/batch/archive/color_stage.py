@@ -49,7 +49,7 @@ def colorize_items(context, states, matched):
             },
             needs_blender=plan.needs_blender,
             memory=context.costs.memory(plan.scans, () if plan.seeds else plan.photos),
-            # Where photos of the whole batch are, is known by now.
+            # Photos of the whole batch were matched before, so that they cost nothing here.
             cost=context.costs.seconds(plan.scans, 0 if plan.seeds or state.item.offered else len(plan.photos)),
             log=context.folder.log(state.item.name),
         )

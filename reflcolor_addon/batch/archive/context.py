@@ -113,6 +113,7 @@ class Context:
             return False
 
         self.workers.work(tasks, counted, show, begun)
+        whole.pause()
         self.tell(f"{what} {done} of {count}")
 
     def work_again(self, stage: str, tasks: list[Task], done: Callable, failed: Callable, what: str):

@@ -13,11 +13,11 @@ _OTHERS = 4.0
 # Bytes that a worker needs before there is a scan, and for each pixel of the scan while it is colorized and written.
 _MEMORY, _MEMORY_PER_PIXEL = 350 << 20, 450
 # Seconds of one processor for each scan, each million of its pixels, and each photo that it is matched with; for each
-# photo that is looked at, and looked at again; for each other scan that a photo was found to show; and for each two
-# photos that are compared.
+# photo that is looked at, and looked at again; for each other scan that a photo was found to show; for each two
+# photos that are compared; and for each picture that is rendered.
 SECONDS, SECONDS_PER_MEGAPIXEL, SECONDS_PER_PAIR = 1.5, 8.0, 10.0
 SECONDS_PER_LOOK, SECONDS_PER_SECOND_LOOK, SECONDS_PER_LOOK_OF_SCANS = 0.25, 0.25, 0.1
-SECONDS_PER_COMPARISON = 0.01
+SECONDS_PER_COMPARISON, SECONDS_TO_RENDER = 0.01, 8.0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,7 @@ from ...files.refusals import unwritable
 from ..plan_document import as_document
 from .fingerprints import digest_of, program_digest
 
-# Records of finished work, and those of what is written anew.
+# Records of finished work, and of work that is being done again.
 KIND, BEGUN = "done", "begun"
 
 
@@ -48,11 +48,6 @@ class Done:
         outputs = {path: self._output(path) for path in outcome["written"]}
         kept = {name: outcome.get(name) for name in ("warnings", "left_out", "photos", "seconds")}
         self._folder.remember(KIND, f"{name} {stage}", {"key": key, "ended": time.time(), "outputs": outputs} | kept)
-        path = self._folder.state(BEGUN, f"{name} {stage}.json")
-        try:
-            path.unlink(missing_ok=True)
-        except OSError as error:
-            raise unwritable(path, error) from error
 
     def recall(self, name, stage, key=None, since=None):
         """Return the record of finished, complete work, with this key if one is given; else None.
@@ -81,15 +76,24 @@ class Done:
     def begin(self, name, stage):
         """Make a record invalid before its outputs are written again.
 
-        Its `outputs` are known until something else is recorded, so that those which are not written again are still
-        found if the batch is killed meanwhile.
+        Its `outputs` are known until `end`, so that those which are not written again are still found if the batch is
+        killed meanwhile.
         """
         path = self._folder.state(KIND, f"{name} {stage}.json")
         try:
-            with suppress(FileNotFoundError):
+            if path.exists():
                 path.replace(self._folder.state(BEGUN, path.name))
-        except OSError as error:
-            raise unwritable(path, error) from error
+        except OSError:
+            # That it is invalid is what counts.
+            try:
+                path.unlink(missing_ok=True)
+            except OSError as error:
+                raise unwritable(path, error) from error
+
+    def end(self, name, stage):
+        """Forget what was there before a stage began, now that all of it is written again or deleted."""
+        with suppress(OSError):
+            self._folder.state(BEGUN, f"{name} {stage}.json").unlink(missing_ok=True)
 
     def outputs(self, name, stage):
         """Return the outputs of an item, by their paths what is recorded of each; none where nothing is recorded."""

@@ -49,6 +49,7 @@ _PHOTOS = """
 photos = [
 {lines}]
 """
+_COLORIZED = "\n# Left out, because they seem to be colorized images of the scans beside them:\n"
 _ONE_SCAN = """
 # What counts for one scan, or for the scans of a site, which are colored together: docs/manifest.md lists all keys.
 # [[scan]]
@@ -95,14 +96,9 @@ def draft(folder, path):
             parts.update(file.resolve() for file in scan_files(scan) if file != scan)
         except (OSError, ReflcolorError):
             continue
-    stems = {(scan.parent, _stem(scan)): scan for scan in scans}
-    photos = [
-        file
-        for file in files
-        if file.suffix.lower() in IMAGE_SUFFIXES
-        and file.resolve() not in parts
-        and not _is_colorized(file, stems.get((file.parent, file.stem)))
-    ]
+    images = [file for file in files if file.suffix.lower() in IMAGE_SUFFIXES and file.resolve() not in parts]
+    colorized = [file for file in images if _is_colorized(file, scans)]
+    photos = [file for file in images if file not in colorized]
     seen_from = path.absolute().parent
 
     def named(file):
@@ -126,6 +122,8 @@ def draft(folder, path):
     text = _HEAD.format(name=path.name, output=_quoted("colored")) + _SCANS.format(lines=patterns(scans))
     if photos:
         text += _PHOTOS.format(lines=patterns(photos))
+    if colorized:
+        text += _COLORIZED + "".join(f"#   {named(file)}\n" for file in colorized)
     seeds = {scan: _seeds_of(scan) for scan in scans}
     tables = [_ONE.format(file=named(scan), seeds=named(own)) for scan, own in seeds.items() if own is not None]
     return text + _ONE_SCAN.format(file=named(scans[0])) + (_SEEDS + "\n".join(tables) if tables else "")
@@ -154,14 +152,16 @@ def _stem(scan):
     return scan.name[: -len(_suffix(scan))]
 
 
-def _is_colorized(file, scan):
-    """Whether an image is a colorized scan that was written beside it: it has its name and its grid."""
-    if scan is None or file == scan:
+def _is_colorized(file, scans):
+    """Whether an image is a colorized scan that was written beside it: a PNG of the scan's name, as large as its
+    grid."""
+    beside = [scan for scan in scans if (scan.parent, _stem(scan)) == (file.parent, file.stem)]
+    if not beside or file.suffix.lower() != ".png":
         return False
     try:
         rows, columns = image_size(file)
-        return rows * columns in scan_pixels(scan)
-    except ReflcolorError:
+        return any(rows * columns in scan_pixels(scan) for scan in beside)
+    except (OSError, ReflcolorError):
         return False
 
 

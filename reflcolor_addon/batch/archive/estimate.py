@@ -12,13 +12,13 @@ from .costs import (
     SECONDS_PER_LOOK_OF_SCANS,
     SECONDS_PER_PAIR,
     SECONDS_PER_SECOND_LOOK,
+    SECONDS_TO_RENDER,
 )
 from .options import COLOR, LOOK, MATCH, RENDERING
 from .overlap_stage import MOST_COMPARED
 from .progress_lines import duration
 from .tries import MOST_SCANS
 
-_SECONDS_TO_RENDER = 8.0
 # A photo colors one place; some places have so many times as many photos as usual.
 _MORE_THAN_USUAL = 3.0
 
@@ -84,17 +84,20 @@ def expected(manifest, options, costs):
     Returns
     -------
     dict of str to float
-        Seconds of one processor, by the stage, in their order; of those that are asked for, and those these need.
+        Seconds of one processor for each stage that is asked for or needed by one, in their order.
     """
     items = _usable(manifest, options, costs)
     offered = sum(item.offered for item in manifest.items)
     own, photos = sum(item.offered for item in items), len(manifest.photos)
     pairs, looks, looks_of_scans = photos, SECONDS_PER_LOOK * photos, 0.0
-    if own and not are_few(offered, photos):
+    asked = set(options.stages)
+    if own == offered and asked & {MATCH, COLOR}:
+        # Photos are compared with each other.
+        looks += SECONDS_PER_COMPARISON * photos * min(photos / 2, MOST_COMPARED * offered) / max(offered, 1)
+    if own and asked & {MATCH, COLOR} and not are_few(offered, photos):
         # Each photo is matched with few scans, and looked at again for some, whatever the number of scans. Then what
-        # was measured where it was found is looked for in all of them. Photos are compared with each other.
+        # was measured where it was found is looked for in all of them.
         looks += SECONDS_PER_SECOND_LOOK * photos * min(SECOND_LOOKS, offered) / offered
-        looks += SECONDS_PER_COMPARISON * photos * min(photos / 2, MOST_COMPARED * offered) / offered
         looks_of_scans = SECONDS_PER_LOOK_OF_SCANS * photos
         pairs = photos * min(MOST_SCANS, offered) / offered
     of_stages = {
@@ -104,10 +107,9 @@ def expected(manifest, options, costs):
             costs.seconds(item.plan.scans, 0 if item.offered or item.plan.seeds else len(item.plan.photos))
             for item in items
         ),
-        RENDERING: _SECONDS_TO_RENDER
+        RENDERING: SECONDS_TO_RENDER
         * sum(any(output.kind == RENDER for output in item.plan.outputs) for item in items),
     }
-    asked = set(options.stages)
     needed = {LOOK: {LOOK, MATCH, COLOR}, MATCH: {MATCH, COLOR}}
     return {stage: seconds for stage, seconds in of_stages.items() if asked & needed.get(stage, {stage})}
 

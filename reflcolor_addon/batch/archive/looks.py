@@ -57,7 +57,7 @@ def look_at(request, *, progress, cancelled):
     try:
         for number, path in enumerate(missing):
             step()
-            # Pictures of scans have no names that tell anything.
+            # Pictures of scans are named by hashes.
             name = f"{number + 1} of {len(missing)}" if request["look"] == OF_SCANS else Path(path).name
             progress(_READING + (1 - _READING) * number / len(missing), name)
             try:

@@ -7,6 +7,7 @@ from pathlib import Path
 from ..paths import scan_files
 from ..plan_document import as_document
 from .claims import Claim, Verdict
+from .costs import SECONDS_PER_PAIR
 from .fingerprints import digest_of, program_digest
 from .look_stage import looks_of_scans, second_looks
 from .options import MATCH
@@ -178,6 +179,7 @@ class _Rounds:
             for path, helpers in wanted.items():
                 if (kept := known.get(self._kept_as(path, helpers))) is not None:
                     self._take(name, path, helpers, kept)
+                    self._context.whole.expect_less(MATCH, SECONDS_PER_PAIR)
                 else:
                     missing[path] = helpers
             if missing and name in self._own:
@@ -263,7 +265,7 @@ class _Rounds:
                 "placed_by": placed_by,
             },
             memory=self._context.costs.memory(plan.scans, largest),
-            cost=self._context.costs.seconds(plan.scans, len(paths)),
+            cost=SECONDS_PER_PAIR * len(paths),
             log=self._context.folder.log(f"{item.name} match"),
         )
 

@@ -12,6 +12,7 @@ from ...matching.edges import filled
 from ...matching.models import Camera, camera_axes
 from ...matching.registration.search import Search
 from ...matching.registration.sphere_map import drawn
+from .two_looks import coarseness
 
 # A picture of a scan is so many times as wide as it is high; its focal length, in widths, makes it show 78 degrees.
 _RATIO, _FOCAL = 1.5, 0.617
@@ -75,7 +76,7 @@ def look(views, picture, step=lambda: None):
     """
     if views.untestable is not None or np.ptp(picture.gray) == 0:
         return 0.0
-    guesses = Search(views, picture).directions(step, _FOCALS)
+    guesses = Search(views, picture).directions(step, _FOCALS, coarseness(views))
     return max(guesses[0].score, 0.0) if guesses else 0.0
 
 

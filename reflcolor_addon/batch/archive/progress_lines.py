@@ -2,7 +2,7 @@
 
 import time
 
-# What was expected before the batch began counts as much as measuring this share of it.
+# The expected speed weighs as much as having measured this share of the work.
 _EXPECTED_COUNTS = 0.05
 
 
@@ -20,7 +20,8 @@ class WholeProgress:
     def __init__(self, expected, workers):
         self._left, self._workers = dict(expected), workers
         self._stage, self._step, self._done, self._shown = None, 0.0, 0.0, 0.0
-        self._start = time.monotonic()
+        # Seconds by the clock in the steps that ended, and when the one at work began.
+        self._worked, self._began = 0.0, None
 
     def begin(self, stage, cost, only=False):
         """Begin a step of a stage; the stages before it are at their end.
@@ -39,6 +40,20 @@ class WholeProgress:
         if only:
             self._left[stage] = cost
         self._stage, self._step = stage, cost
+        self._began = time.monotonic()
+
+    def pause(self):
+        """End a step: what is done before the next one, such as reading files to compare them, is not timed."""
+        self._worked += time.monotonic() - self._began
+        self._began = None
+
+    def end(self):
+        """End the work; nothing is left."""
+        self._left, self._step = {}, 0.0
+
+    def expect_less(self, stage, cost):
+        """Take out of a stage that has not ended what was done in an earlier run."""
+        self._left[stage] = max(self._left.get(stage, 0.0) - cost, 0.0)
 
     def add(self, cost):
         """Count what was done."""
@@ -48,20 +63,21 @@ class WholeProgress:
     def drop(self, cost):
         """Take out what need not be done."""
         self._step -= cost
-        self._left[self._stage] = max(self._left.get(self._stage, 0.0) - cost, 0.0)
+        self.expect_less(self._stage, cost)
 
     def share(self, running=0.0):
         """Return how much is done, 0 to 1, and never less than before; ``running`` is what was done of what is not
         finished yet."""
         done, whole = self._counted(running)
-        self._shown = min(max(self._shown, done / max(whole, 1e-9)), 1.0)
+        self._shown = min(max(self._shown, done / whole if whole > 0 else 1.0), 1.0)
         return self._shown
 
     def text(self, running=0.0):
         """Return the time left in words."""
         done, whole = self._counted(running)
         expected = max(_EXPECTED_COUNTS * whole, 1e-9)
-        each = (time.monotonic() - self._start + expected / self._workers) / (done + expected)
+        worked = self._worked + (0.0 if self._began is None else time.monotonic() - self._began)
+        each = (worked + expected / self._workers) / (done + expected)
         return f"{duration(each * max(whole - done, 0.0))} left"
 
     def _counted(self, running):

@@ -6,6 +6,7 @@ from pathlib import Path
 from ...report.amended import add_output
 from ..plan import PLACEHOLDER, RENDER
 from ..plan_document import as_document
+from .costs import SECONDS_TO_RENDER
 from .options import COLOR, FAILED, RENDERING, UNSHOWN
 from .stage import work_on
 from .workers import Task
@@ -37,7 +38,7 @@ def render_items(context, states):
             request={"do": "run", "plan": as_document(plan), "folder": str(context.folder.root), "hashes": hashes},
             needs_blender=True,
             memory=context.costs.memory(plan.scans),
-            cost=context.costs.seconds(plan.scans, 1),
+            cost=SECONDS_TO_RENDER,
             log=context.folder.log(f"{state.item.name} render"),
         )
         pieces.append((state, context.done.key(RENDERING, plan, hashes), task))

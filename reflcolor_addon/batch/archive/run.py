@@ -72,11 +72,13 @@ def run_batch(manifest, options, costs, known_pairs, session):
             done=Done(manifest.folder, fingerprints),
             workers=stack.enter_context(workers),
             same=same,
-            whole=WholeProgress(expected(manifest, options, costs), options.workers),
+            whole=WholeProgress(expected(manifest.with_photos(photos), options, costs), options.workers),
         )
         _remember_scans(context)
         _report_duplicates(context)
         _work(context, states, known_pairs)
+        context.whole.end()
+        context.tell(Message("All scans are done"))
         if set(options.stages) == set(STAGES):
             _correct_items(context, states)
     return states

@@ -83,6 +83,8 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             state.outcome, state.error = FAILED, outcome["error"]
         if outcome["done"] and state.left_out:
             _delete_outdated(context, piece, outcome["written"])
+        if outcome["done"]:
+            context.done.end(state.item.name, stage)
         remember_item(context, state)
         _write_log(task.log, outcome, _matched(context, state))
         context.session.say(_line(state, outcome, count, whole))

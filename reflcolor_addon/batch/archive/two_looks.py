@@ -10,12 +10,30 @@ import numpy as np
 from ...matching.registration.fitting import COARSE, MIDDLE, refined
 from ...matching.registration.search import Search
 from ...matching.registration.sphere_map import Guess
+from ...matching.scan_image import pixel_steps
 
 _GUESSES, _FINER = 6, 2
-# Size in degrees of the pixels that directions are told by: finer ones take longer, and tell hardly more.
-_STEP_DEG = 0.6
+# The pixels that directions are told by, in degrees: smaller ones take longer and hardly help. A narrow scan needs so
+# many across.
+_STEP_DEG, _LEAST_ACROSS = 0.6, 90
 # As a camera aside is fitted: pixels, tile, radius, blur and spread, on the coarse level and on the middle one.
 _ROUGHLY, _CLOSER = (*COARSE, 10, 1.5, 1.2), (*MIDDLE, 10, 1.0, 0.8)
+
+
+def coarseness(views):
+    """Return how many times as large as in matching the pixels are that a scan is looked at with.
+
+    Parameters
+    ----------
+    views : ScanViews
+
+    Returns
+    -------
+    int
+    """
+    extent = max(length * step for length, step in zip(views.scan.shape, pixel_steps(views.scan), strict=True))
+    across = extent / views.step_deg
+    return max(1, min(round(_STEP_DEG / views.step_deg), int(across / _LEAST_ACROSS)))
 
 
 def first_look(views, photo, step=lambda: None):
@@ -40,8 +58,7 @@ def first_look(views, photo, step=lambda: None):
     """
     guesses = []
     if views.untestable is None and np.ptp(photo.gray) > 0:
-        coarser = max(1, round(_STEP_DEG / views.step_deg))
-        guesses = Search(views, photo).directions(step, coarser=coarser)[:_GUESSES]
+        guesses = Search(views, photo).directions(step, coarser=coarseness(views))[:_GUESSES]
     directions = [[*map(float, astuple(guess)[:-1]), list(map(float, guess.center))] for guess in guesses]
     return max(directions[0][0], 0.0) if directions else 0.0, directions
 

@@ -36,7 +36,7 @@ class Task:
     memory : int
         Bytes that it will take at most, as far as can be known.
     cost : float
-        How long it takes, in any unit, to tell how much is left.
+        Seconds of one processor that it probably takes.
     log : Path
         Where the worker's other lines go.
     not_before : float

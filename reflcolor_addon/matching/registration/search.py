@@ -98,8 +98,8 @@ class Search:
     def directions(self, step=lambda: None, focals=_FOCALS, coarser=1):
         """Return `Guess`es of a photo taken from the scanner's place before they are sharpened; see `from_scanner`.
 
-        ``focals`` are the focal lengths that are tried, in lengths of the photo's longer side. The maps are so many
-        times ``coarser``.
+        ``focals`` are the focal lengths that are tried, in lengths of the photo's longer side; ``coarser`` is how many
+        times as large as `map_step` says the pixels of the maps are.
         """
         return _unlike_ones(self._everywhere([(0.0, 0.0, 0.0)], coarser, focals, _PITCHES, 3, step))
 
