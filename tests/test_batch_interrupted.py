@@ -375,7 +375,7 @@ def test_outputs_of_an_earlier_run_are_known_until_the_work_ends(tmp_path):
     folder.make()
     (tmp_path / "hall.png").write_bytes(b"colored")
     done = Done(folder, Fingerprints(folder))
-    done.record("hall", "color", "key", {"written": [tmp_path / "hall.png"]})
+    done.record("hall", "color", "key", {"written": [str(tmp_path / "hall.png")]})
     for _ in range(2):
         done.begin("hall", "color")
         assert done.recall("hall", "color") is None

@@ -230,10 +230,10 @@ _RUNS = {
     "{option} {path}: is an input, and would be overwritten; choose another name": (
         "{option} {path}: wird gelesen und würde überschrieben; einen anderen Namen wählen"
     ),
-    "{scan}: no photo could be verified, so there are no seeds; in Blender, pick four to six seeds, each in the scan "
-    "and in the photo, save them, and find seeds with seeds --hand; or take guessed colors with --guess": (
-        "{scan}: kein Foto konnte bestätigt werden, also gibt es keine Saatpunkte; in Blender vier bis sechs "
-        "Saatpunkte setzen, jeden im Scan und im Foto, sie speichern und mit seeds --hand weitere suchen; oder mit "
+    "{scan}: no photo could be verified, so there are no seeds; in Blender, click four to six points, each in the "
+    "scan and in the photo, save them as seeds, and run seeds --hand; or take guessed colors with --guess": (
+        "{scan}: kein Foto konnte bestätigt werden, also gibt es keine Saatpunkte; in Blender vier bis sechs Punkte "
+        "anklicken, jeden im Scan und im Foto, sie als Saatpunkte speichern und seeds --hand aufrufen; oder mit "
         "--guess geratene Farben nehmen"
     ),
     "{file}: has {width} x {height} pixels, expected {columns} x {rows} as the scan {scan} has": (

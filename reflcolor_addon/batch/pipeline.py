@@ -176,9 +176,9 @@ def _shown(jobs, plan, session):
     for job in filter(_lacks_seeds, jobs):
         if not plan.skip_unshown:
             raise SeedsError(
-                "{scan}: no photo could be verified, so there are no seeds; in Blender, pick four to six seeds, each "
-                "in the scan and in the photo, save them, and find seeds with seeds --hand; or take guessed colors "
-                "with --guess",
+                "{scan}: no photo could be verified, so there are no seeds; in Blender, click four to six points, each "
+                "in the scan and in the photo, save them as seeds, and run seeds --hand; or take guessed colors with "
+                "--guess",
                 scan=job.name,
             )
         session.left_out.append(job.label)
