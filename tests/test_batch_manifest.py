@@ -282,8 +282,13 @@ def test_a_draft_leaves_out_a_colorized_image_beside_its_scan(folder):
     write_png(folder / "hall_0.png", np.zeros((rows, columns, 3), np.uint8))
     write_png(folder / "hall_1.png", np.zeros((rows, columns + 1, 3), np.uint8))
     (folder / "hall_2.png").write_bytes(b"no picture")
+    write_png(folder / "hall_0.jpg", np.zeros((rows, columns, 3), np.uint8))
     text = draft(folder, folder / "batch.toml")
-    assert "hall_0.png" not in text and "hall_1.png" in text and "hall_2.png" in text
+    assert "colorized images of the scans beside them:\n#   \"hall_0.png\"\n" in text
+    (folder / "batch.toml").unlink()
+    manifest, _ = read(folder, text)
+    assert {path.name for path in manifest.photos} >= {"hall_0.jpg", "hall_1.png", "hall_2.png"}
+    assert "hall_0.png" not in {path.name for path in manifest.photos}
 
 
 def test_a_draft_takes_a_text_of_points_for_a_scan_and_leaves_out_other_texts(folder):
