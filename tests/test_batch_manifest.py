@@ -17,7 +17,7 @@ from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.batch.archive.names import item_names
 from reflcolor_addon.batch.archive.pairs import read_pairs
 from reflcolor_addon.errors import UsageError
-from reflcolor_addon.files.images import write_png
+from reflcolor_addon.files.images import write_jpeg, write_png
 from reflcolor_addon.files.readers import ReadOptions, read_scans
 from reflcolor_addon.files.writers import write_ptx
 
@@ -282,9 +282,9 @@ def test_a_draft_leaves_out_a_colorized_image_beside_its_scan(folder):
     write_png(folder / "hall_0.png", np.zeros((rows, columns, 3), np.uint8))
     write_png(folder / "hall_1.png", np.zeros((rows, columns + 1, 3), np.uint8))
     (folder / "hall_2.png").write_bytes(b"no picture")
-    write_png(folder / "hall_0.jpg", np.zeros((rows, columns, 3), np.uint8))
+    write_jpeg(folder / "hall_0.jpg", np.zeros((rows, columns, 3), np.uint8))
     text = draft(folder, folder / "batch.toml")
-    assert "colorized images of the scans beside them:\n#   \"hall_0.png\"\n" in text
+    assert 'colorized images of the scans beside them:\n#   "hall_0.png"\n' in text
     (folder / "batch.toml").unlink()
     manifest, _ = read(folder, text)
     assert {path.name for path in manifest.photos} >= {"hall_0.jpg", "hall_1.png", "hall_2.png"}
