@@ -29,7 +29,9 @@ PUMP_PAIRS = (
 
 
 # What another white balance multiplies red, green and blue by: that of a lamp, and that of another camera.
-_WARM, _MILD = (1.08, 0.95, 0.8), (1.02, 1.0, 0.95)
+WARM, MILD = (1.08, 0.95, 0.8), (1.02, 1.0, 0.95)
+# The corners of a grid, and where a strong warp moves them.
+_ALL, _WARPED = ((0, 0), (1, 0), (1, 1), (0, 1)), ((0.12, 0.06), (0.93, 0.0), (1.0, 0.95), (0.0, 0.86))
 # Folder, scan, truth and what makes it; the sides of the house that its photos show nothing of.
 _SCENES = (
     ("cones", "cones", "truth", "views.py"),
@@ -145,8 +147,8 @@ def unrelated(scenes):
 
 GROUPS = {
     "straight": straight,
-    "warped": warped(_WARM, "own, warped"),
-    "warped-mild": warped(_MILD, "own, warped, mild"),
+    "warped": warped(WARM, "own, warped"),
+    "warped-mild": warped(MILD, "own, warped, mild"),
     "turned": turned,
     "k4a": k4a,
     "pumpA": pump,
@@ -154,15 +156,27 @@ GROUPS = {
 }
 
 
-def warped_photo(color, light=_WARM):
+def warp(shape, corners=_ALL, moved=_WARPED):
+    """Return what leads from a scan's grid, in pixels, to a photo of its own colors twice as large: (3, 3), and the
+    photo's (width, height).
+
+    ``corners`` of the part that is shown, as shares of the grid, are ``moved`` to places that are shares of that part.
+    """
+    size = np.float32([shape[1], shape[0]])
+    shown, places = np.float32(corners) * size, np.float32(moved) * np.ptp(np.float32(corners), axis=0) * size * 2
+    wide = 2 * np.ptp(shown, axis=0)
+    return cv2.getPerspectiveTransform(shown, places), (int(wide[0]), int(wide[1]))
+
+
+def in_other_light(color, homography, size, light):
+    """Return a scan's own colors as a photo, warped, darker, and in other light."""
+    large = cv2.warpPerspective(color, homography, size, flags=cv2.INTER_CUBIC)
+    return np.clip((large / 255.0) ** 1.1 * np.array(light) * 255, 0, 255).astype(np.uint8)
+
+
+def warped_photo(color, light=WARM):
     """Return a photo's own colors warped strongly, twice as large, darker, in other light, JPEG of quality 80."""
-    height, width = color.shape[:2]
-    corners = np.float32([[0, 0], [width, 0], [width, height], [0, height]])
-    moved = np.float32([[0.12, 0.06], [0.93, 0.0], [1.0, 0.95], [0.0, 0.86]]) * np.float32([width, height]) * 2
-    large = cv2.warpPerspective(
-        color, cv2.getPerspectiveTransform(corners, moved), (2 * width, 2 * height), flags=cv2.INTER_CUBIC
-    )
-    lit = np.clip((large / 255.0) ** 1.1 * np.array(light) * 255, 0, 255).astype(np.uint8)
+    lit = in_other_light(color, *warp(color.shape), light)
     data = cv2.imencode(".jpg", lit[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 80])[1]
     return cv2.imdecode(data, cv2.IMREAD_COLOR)[..., ::-1].copy()
 

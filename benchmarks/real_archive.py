@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks import real_scans, trust_cases
 from benchmarks.archive import Archive, add_arguments, folder_of, measure, median_off, write_manifest
-from benchmarks.matching_pairs import DATA, K4A_PHOTO, PUMP_PHOTO
+from benchmarks.matching_pairs import DATA, K4A_PHOTO, MILD, PUMP_PHOTO, WARM, in_other_light, warp
 from reflcolor_addon.files.writers.ptx import write_ptx
 
 _SCANS = tuple(name for name in trust_cases.SCANS if not name.endswith(("_every_3rd", "_large", "_all_around")))
@@ -28,11 +28,9 @@ _AGAIN = ("doria", "pumpA", "k4a", "bildstein_05", "bildstein_15", "bildstein_25
 _AGAIN += ("pjlab_ours3", "kitti_000008")
 _OTHER = ("desk", "astronaut", "brick", "camera", "chelsea", "coffee", "coins", "grass", "gravel", "motorcycle_left")
 _OTHER += ("page", "rocket", "text", "moon")
-# Corners of what photos show of a scan's own colors, as shares of the grid, and where they are in the photo.
-_ALL = ((0, 0), (1, 0), (1, 1), (0, 1))
-_CUT = ((0.25, 0.1), (1.0, 0.1), (1.0, 0.9), (0.25, 0.9))
-_SHAPES = {"warped": (_ALL, ((0.12, 0.06), (0.93, 0), (1, 0.95), (0, 0.86))), "cut": (_CUT, _ALL)}
-_LIGHT = {"warped": (1.08, 0.95, 0.8), "cut": (1.02, 1.0, 0.95)}
+# What photos show of a scan's own colors: all of it, warped, or a part of it (corners as shares of the grid).
+_SHAPES = {"warped": (), "cut": (((0.25, 0.1), (1.0, 0.1), (1.0, 0.9), (0.25, 0.9)), ((0, 0), (1, 0), (1, 1), (0, 1)))}
+_LIGHT = {"warped": WARM, "cut": MILD}
 # From where on the grid a place is scanned again, and how fine a grid must be to be made coarser.
 _FROM, _FINE = 0.15, 300
 
@@ -86,7 +84,7 @@ def _photos():
     for name in real_scans.NAMES:
         color = real_scans.load(name, DATA).color
         for kind in _SHAPES:
-            yield f"{name} {kind}", _jpeg(_taken(color, kind))
+            yield f"{name} {kind}", _jpeg(in_other_light(color, *warp(color.shape, *_SHAPES[kind]), _LIGHT[kind]))
     yield "k4a beside", K4A_PHOTO.read_bytes()
     yield "pumpA beside", PUMP_PHOTO.read_bytes()
     for name in trust_cases.PAIRS:
@@ -97,22 +95,6 @@ def _photos():
 
 def _jpeg(rgb):
     return cv2.imencode(".jpg", rgb[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes()
-
-
-def _homography(shape, kind):
-    """(3, 3) from a scan's grid, in pixels, to a photo of its own colors; and the photo's (width, height)."""
-    size = np.float32([shape[1], shape[0]])
-    corners, moved = (np.float32(places) * size for places in _SHAPES[kind])
-    span = np.ptp(corners, axis=0) / size
-    wide = (2 * size * span).astype(int)
-    return cv2.getPerspectiveTransform(corners, moved * 2 * span), (int(wide[0]), int(wide[1]))
-
-
-def _taken(color, kind):
-    """A scan's own colors as a photo, twice as large, in other light."""
-    homography, size = _homography(color.shape, kind)
-    large = cv2.warpPerspective(color, homography, size, flags=cv2.INTER_CUBIC)
-    return np.clip((large / 255.0) ** 1.1 * np.array(_LIGHT[kind]) * 255, 0, 255).astype(np.uint8)
 
 
 def _shows(scan, photo):
@@ -143,7 +125,7 @@ def _off(scan, photo, own, model):
         if own.shape != tuple(len(range(start, side, every)) for start, side in zip((0, first), shape, strict=True)):
             raise ValueError(f"{scan} has {own.shape} pixels")
         grid = np.stack([first + every * columns + 0.5, every * rows + 0.5], axis=-1)
-        homography, (width, height) = _homography(shape, kind)
+        homography, (width, height) = warp(shape, *_SHAPES[kind])
         xy = cv2.perspectiveTransform(grid[None], homography)[0]
         seen = (xy >= 0).all(axis=1) & (xy < (width, height)).all(axis=1)
     else:

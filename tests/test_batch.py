@@ -4,7 +4,6 @@ import csv
 import json
 from dataclasses import MISSING, fields
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from small_scans import random_scan
 from reflcolor_addon import Seeds, Settings, read_scans
 from reflcolor_addon.batch.archive.costs import Costs
 from reflcolor_addon.batch.archive.done import Done
-from reflcolor_addon.batch.archive.estimate import estimate, expected
+from reflcolor_addon.batch.archive.estimate import estimate
 from reflcolor_addon.batch.archive.folder import BatchFolder
 from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.batch.archive.options import Options
@@ -25,7 +24,6 @@ from reflcolor_addon.batch.plan_document import as_document, from_document
 from reflcolor_addon.batch.read import safe_label
 from reflcolor_addon.batch.session import Session
 from reflcolor_addon.cli.main import main
-from reflcolor_addon.cli.verbs.batch import _plain_lines
 from reflcolor_addon.errors import ScanError
 from reflcolor_addon.files.images import read_image, write_jpeg, write_png
 from reflcolor_addon.files.memory import readable
@@ -163,48 +161,6 @@ def test_the_estimate_rests_on_the_sizes_in_the_headers(archive, batch):
     head = "2000\n1000\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"
     (archive / "hall_0.ptx").write_text(head + zero)
     assert "scans: 3, about 2.0 megapixels together" in batch("--check")[1]
-
-
-def test_progress_is_told_in_lines_where_there_is_no_terminal():
-    said, clock = [], [0.0]
-    show = _plain_lines(Session(say=said.append), now=lambda: clock[0])
-    for seconds, fraction in ((1, 0.1), (6, 0.15), (9, 0.3), (12, 0.35), (20, 0.38), (30, 1.0), (31, 0.0), (40, 0.2)):
-        clock[0] = seconds
-        show(fraction, "at work")
-    assert said == [" 15%  at work", " 35%  at work", "100%  at work", " 20%  at work"]
-
-
-def test_where_a_tenth_takes_long_a_percent_is_told_at_most_once_a_minute():
-    said, clock = [], [0.0]
-    show = _plain_lines(Session(say=said.append), now=lambda: clock[0])
-    for seconds, fraction in ((30, 0.01), (59, 0.02), (61, 0.025), (90, 0.04), (130, 0.05), (200, 0.059), (900, 0.06)):
-        clock[0] = seconds
-        show(fraction, "at work")
-    assert said == ["  2%  at work", "  5%  at work", "  6%  at work"]
-
-
-@pytest.mark.parametrize("stages", [("look",), ("match",), ("look", "match", "color", "render")])
-def test_what_is_expected_is_what_the_stages_need(stages):
-    items = [
-        SimpleNamespace(offered=True, plan=SimpleNamespace(scans=[Path(f"{k}.ptx")], outputs=[], seeds=None, photos=[]))
-        for k in range(30)
-    ]
-    manifest = SimpleNamespace(items=items, photos=[Path(f"{k}.jpg") for k in range(40)])
-    costs = Costs(scans={item.plan.scans[0]: 1_000_000 for item in items})
-    found = expected(manifest, Options(stages=stages, workers=1, memory=1 << 30), costs)
-    matches = {} if stages == ("look",) else {"match": 30 * (0.1 * 40 + 10 * 40 * 9 / 30)}
-    colors = {"color": 30 * 9.5, "render": 0.0} if "color" in stages else {}
-    looks = 0.25 * 30 * 40 * (1 if stages == ("look",) else 2) + (0 if stages == ("look",) else 0.01 * 40 * 20)
-    assert found == pytest.approx({"look": looks, **matches, **colors})
-
-
-def test_progress_for_an_engine_of_a_render_farm(archive, batch):
-    status, out, _ = batch("--openjd")
-    told = [int(line.split()[1]) for line in out.splitlines() if line.startswith("openjd_progress:")]
-    assert status == 0 and told[-1] == 100 and told == sorted(set(told))
-    (archive / "hall_2.ptx").write_text("no scan\n")
-    status, out, _ = batch("--openjd", "--keep-going")
-    assert status == 1 and "openjd_fail: batch.toml: 1 of 3 failed: hall_2" in out
 
 
 def test_a_scan_that_cannot_be_read_fails_also_where_photos_are_looked_for(archive, batch):

@@ -15,19 +15,15 @@ import pytest
 from archives import HEAD, damage_points, make_archive, outputs_of, table_of
 from command_line import process_line, run_process
 
-from reflcolor_addon.batch.archive import color_stage, progress_lines
-from reflcolor_addon.batch.archive.context import Context
+from reflcolor_addon.batch.archive import color_stage
 from reflcolor_addon.batch.archive.done import Done
 from reflcolor_addon.batch.archive.fingerprints import Fingerprints
 from reflcolor_addon.batch.archive.folder import BatchFolder
-from reflcolor_addon.batch.archive.looks import FIRST, look_at
 from reflcolor_addon.batch.archive.registrations import Registrations
-from reflcolor_addon.batch.archive.workers import Task, Workers
+from reflcolor_addon.batch.archive.workers import Workers
 from reflcolor_addon.cli.interruption import Interruption
 from reflcolor_addon.errors import OutputError
 from reflcolor_addon.files.images import write_png
-from reflcolor_addon.files.readers.options import ReadOptions
-from reflcolor_addon.matching.registration.registration import Registration
 
 COUNT, SHAPE = 4, (60, 90)
 
@@ -274,92 +270,6 @@ def test_nothing_is_known_of_work_on_files_that_cannot_be_hashed(tmp_path):
     assert done.recall("hall", "color", done.key("color", None, {"a.ptx": ""})) is None
 
 
-def test_what_was_known_before_tells_nothing_of_the_time_left(monkeypatch):
-    clock, said = [100.0], []
-    monkeypatch.setattr(progress_lines, "time", SimpleNamespace(monotonic=lambda: clock[0]))
-    outcomes = {"known": ({"found": {"worked": 0.0}}, 0.0), "new": ({"found": {"worked": 1.0}}, 10.0)}
-
-    class Workers:
-        def work(self, tasks, finished, show, begin):
-            for task in list(tasks)[:-1]:
-                outcome, seconds = outcomes[task.name.split()[0]]
-                clock[0] += seconds
-                finished(task, outcome)
-            show([])
-
-    class OfABatch(Context):
-        def __init__(self):
-            self.workers, self.whole = Workers(), progress_lines.WholeProgress({"look": 5.0}, 1)
-            self.session = SimpleNamespace(progress=lambda fraction, text: said.append((fraction, text)))
-
-    tasks = [Task(name=name, request={}) for name in ("known 1", "known 2", "known 3", "new 1", "new 2")]
-    OfABatch().work("look", tasks, lambda task, outcome: None, "Looked at")
-    assert said[0] == (0.5, "Looked at 4 of 5; 9 s left")
-
-
-def test_progress_is_that_of_the_whole_batch(monkeypatch):
-    clock = [0.0]
-    monkeypatch.setattr(progress_lines, "time", SimpleNamespace(monotonic=lambda: clock[0]))
-    whole = progress_lines.WholeProgress({"look": 10.0, "match": 70.0, "color": 20.0}, 2)
-    assert (whole.share(), whole.text()) == (0.0, "50 s left")
-    told = []
-
-    def step(stage, cost, seconds, **how):
-        whole.begin(stage, cost, **how)
-        clock[0] += seconds / 2
-        told.append((round(whole.share(cost / 2), 2), whole.text(cost / 2)))
-        clock[0] += seconds / 2
-        whole.add(cost)
-        told.append((round(whole.share(), 2), whole.text()))
-        whole.pause()
-        # Reading files between two steps tells nothing of how fast these are.
-        clock[0] += 1000
-
-    step("look", 10.0, 5.0)
-    # It takes twice as long as was expected.
-    step("match", 20.0, 20.0)
-    step("match", 20.0, 20.0)
-    # No more pairs are tried, though more were expected, and coloring has more to do than was expected.
-    step("color", 50.0, 50.0, only=True)
-    assert told == [
-        (0.05, "48 s left"),
-        (0.1, "45 s left"),
-        (0.2, "56 s left"),
-        (0.3, "55 s left"),
-        (0.4, "50 s left"),
-        (0.5, "43 s left"),
-        (0.75, "23 s left"),
-        (1.0, "1 s left"),
-    ]
-
-
-def test_the_share_that_is_done_never_falls():
-    whole = progress_lines.WholeProgress({"look": 10.0, "color": 10.0}, 1)
-    whole.begin("look", 10.0)
-    whole.add(10.0)
-    assert whole.share() == 0.5
-    whole.begin("color", 90.0, only=True)
-    assert whole.share() == 0.5
-    whole.add(80.0)
-    assert 0.5 < whole.share() < 1.0
-    whole.end()
-    assert whole.share() == 1.0
-
-
-def test_what_an_earlier_run_has_done_is_not_expected_again():
-    whole = progress_lines.WholeProgress({"look": 10.0, "match": 40.0}, 1)
-    whole.begin("look", 10.0)
-    whole.add(10.0)
-    assert whole.share() == 0.2
-    whole.expect_less("match", 30.0)
-    assert whole.share() == 0.5
-
-
-def test_of_a_batch_that_had_nothing_to_do_all_is_done():
-    whole = progress_lines.WholeProgress({}, 1)
-    assert whole.share() == 1.0
-
-
 def test_a_record_that_cannot_be_moved_is_invalid_all_the_same(tmp_path, monkeypatch):
     folder = BatchFolder(tmp_path)
     folder.make()
@@ -384,20 +294,3 @@ def test_outputs_of_an_earlier_run_are_known_until_the_work_ends(tmp_path):
     assert list(done.outputs("hall", "color")) == [str(tmp_path / "hall.png")]
     done.end("hall", "color")
     assert not done.outputs("hall", "color")
-
-
-def test_looks_and_matches_that_were_kept_count_as_no_work(archive):
-    write_png(archive / "a.png", np.random.default_rng(0).integers(0, 256, (40, 60, 3)).astype(np.uint8))
-    (folder := BatchFolder(archive / "colored")).make()
-    files = [archive / "hall_0.ptx", archive / "a.png"]
-    request = {"folder": str(folder.root), "scans": [str(files[0])], "photos": [str(files[1])], "look": FIRST}
-    request |= {"hashes": {str(path): path.name for path in files}, "reading": ReadOptions().as_dict()}
-    worked = [
-        look_at(request, progress=lambda *_: None, cancelled=lambda: False)["worked"],
-        look_at(request, progress=lambda *_: None, cancelled=lambda: False)["worked"],
-    ]
-    assert worked == [1.0, 0.0]
-    registrations, job = Registrations(folder, request["hashes"]), SimpleNamespace(path=files[0], index=1)
-    for _ in range(2):
-        registrations(job, files[1], Registration.nothing)
-    assert registrations.recalled == 1

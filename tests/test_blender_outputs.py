@@ -143,6 +143,7 @@ def test_a_render_with_a_texture_has_its_holes_filled(blender_command, tmp_path)
     assert done.returncode == 0, done.stderr
     picture = cv2.imread(str(tmp_path / "render.png")).astype(int)
     background = (np.abs(picture - picture[0, 0]).max(axis=-1) <= 12).astype(np.uint8)
+    assert background.any() and not background.all() and picture[0, 0].max() < 80
     # Each hole would be another part.
     assert cv2.connectedComponents(background)[0] == 2
 

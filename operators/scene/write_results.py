@@ -49,7 +49,7 @@ def write_results(jobs, paths, render_path, picture, progress):
     for job in jobs:
         progress(0.0, "Building the scene")
         give_back()
-        # A light mesh has its holes filled.
+        # A light mesh has its holes filled already.
         filled = pictured and picture.filled and job.light is None
         surface = shown_surface(job.scan, drop_mixed=picture.drop_mixed) if filled else None
         obj = _add_object(context, job)
