@@ -1,6 +1,7 @@
 """Which photos a batch matches with which scans: by their looks, and by when and where they were taken."""
 
 import struct
+from dataclasses import replace
 from datetime import UTC, datetime
 
 import numpy as np
@@ -254,3 +255,12 @@ def test_a_narrow_scan_is_looked_at_with_enough_pixels(wide, step, expected):
     views = ScanViews(Room(1).scan(columns // 2, columns, step))
     assert two_looks.coarseness(views) == expected
     assert wide / (views.step_deg * expected) >= min(0.99 * wide / step, 85)
+
+
+def test_a_scan_of_few_rows_is_looked_at_as_finely_as_it_can_be():
+    whole = Room(1).scan(384, 520, 0.15)
+    # As a spinning lidar's.
+    few = replace(
+        whole, points=whole.points[::12], reflectance=whole.reflectance[::12], valid=whole.valid[::12], color=None
+    )
+    assert two_looks.coarseness(ScanViews(few)) == 1 < two_looks.coarseness(ScanViews(whole))

@@ -78,6 +78,15 @@ def test_partners_stand_out_from_what_is_usual():
     assert partners.partners({"a": 30, "b": 26, "c": 13, "d": 11, "e": 10, "f": 9}, usual | {"f": 0.0}) == ["a", "b"]
 
 
+def test_beside_a_scan_from_the_same_place_scans_next_to_it_are_partners_once_that_is_known():
+    scores = {"again": 60, "next": 35, "far": 15, "b": 20, "c": 20, "d": 19, "e": 18}
+    usual = dict.fromkeys(scores, 20.0)
+    assert partners.partners(scores, usual) == ["again"]
+    assert partners.partners(scores, usual, {"again"}) == ["again", "next"]
+    # Where nothing else stands out, nothing else is one.
+    assert partners.partners(scores | {"next": 21}, usual, {"again"}) == ["again"]
+
+
 def test_pictures_are_kept_by_the_files_and_not_for_files_that_could_not_be_hashed(tmp_path):
     (folder := BatchFolder(tmp_path)).make()
     picture = np.random.default_rng(0).integers(0, 255, (4, 6, 3), np.uint8)

@@ -12,7 +12,6 @@ from .candidates import all_of_them, are_few, for_second_looks, merged, ranks, t
 from .costs import SECONDS_PER_LOOK, SECONDS_PER_LOOK_OF_SCANS, SECONDS_PER_SECOND_LOOK
 from .looks import FIRST, OF_SCANS, SECOND
 from .options import LOOK, MATCH
-from .partners import partners
 from .workers import Task
 
 _SECONDS_PER = {FIRST: SECONDS_PER_LOOK, SECOND: SECONDS_PER_SECOND_LOOK, OF_SCANS: SECONDS_PER_LOOK_OF_SCANS}
@@ -134,8 +133,8 @@ def looks_of_scans(context, items, pictures, looks):
 
     Returns
     -------
-    dict of str to list of str
-        For each name what `partners.partners` gave.
+    dict of str to dict of str to float
+        For each name what `partners.look` gave for the other items.
     """
     paths = {str(context.folder.sketch(name)): name for name in pictures}
     others = {
@@ -148,7 +147,7 @@ def looks_of_scans(context, items, pictures, looks):
     for item, own in found.items():
         for path, score in own.items():
             scores[paths[path]][item] = score
-    return {name: partners(own, looks.usual) for name, own in scores.items()}
+    return dict(scores)
 
 
 def _look(context, items, photos, looks, what, which=FIRST):

@@ -12,6 +12,7 @@ from .fingerprints import digest_of, program_digest
 from .look_stage import looks_of_scans, second_looks
 from .options import MATCH
 from .overlap_stage import overlapping
+from .partners import partners
 from .tries import MOST_HELPERS, Tries
 from .verdicts import Verdicts
 from .workers import Task
@@ -134,7 +135,9 @@ class _Rounds:
         self._found.by_likeness |= {name: list(looks.photos) for name in looks.unseen}
         self._number = 0
         # Made once: what is compared is kept by them.
-        self._claims, self._compared, self._partners = {}, {}, {}
+        self._claims, self._compared = {}, {}
+        # For each picture of a scan how well it fits the others, and which of them are probably of the same place.
+        self._fits, self._partners = {}, {}
 
     def given(self):
         """The pairs that a person names."""
@@ -293,13 +296,15 @@ class _Rounds:
         new = {
             picture: name
             for (_, name), picture in pictures.items()
-            if picture not in self._partners and self._context.folder.sketch(picture).is_file()
+            if picture not in self._fits and self._context.folder.sketch(picture).is_file()
         }
         if new:
-            self._partners |= looks_of_scans(self._context, self._items.values(), new, self._looks)
-        found = defaultdict(set)
-        for (path, _), picture in pictures.items():
-            found[path].update(self._partners.get(picture, ()))
+            self._fits |= looks_of_scans(self._context, self._items.values(), new, self._looks)
+        beside, found = verdicts.beside(), defaultdict(set)
+        for (path, name), picture in pictures.items():
+            own = partners(self._fits.get(picture, {}), self._looks.usual, beside[name])
+            self._partners[picture] = own
+            found[path].update(own)
         return found
 
     def _claim(self, name, path, pairs):

@@ -80,7 +80,7 @@ def look(views, picture, step=lambda: None):
     return max(guesses[0].score, 0.0) if guesses else 0.0
 
 
-def partners(scores, usual):
+def partners(scores, usual, confirmed=()):
     """Return the items that a picture of another one stands out on.
 
     Parameters
@@ -90,6 +90,9 @@ def partners(scores, usual):
     usual : dict of str to float
         For each item the usual score of a photo there: a scan with much detail fits everything better. Of items
         without one, as those that no photo was looked at for, nothing is known.
+    confirmed : collection of str
+        Items that are known to be of the place. The picture fits a scan from the same place best, and scans beside it
+        less well: what stands out is compared with the best of the others.
 
     Returns
     -------
@@ -99,5 +102,6 @@ def partners(scores, usual):
     shares = {name: score / usual[name] for name, score in scores.items() if usual.get(name, 0.0) > 0}
     if len(shares) < 2:
         return []
-    least = max(_STANDS_OUT * median_high(shares.values()), _NEARLY * max(shares.values()))
+    best = max((share for name, share in shares.items() if name not in confirmed), default=0.0)
+    least = max(_STANDS_OUT * median_high(shares.values()), _NEARLY * best)
     return sorted(name for name, share in shares.items() if share >= least > 0)

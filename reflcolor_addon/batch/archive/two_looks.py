@@ -14,8 +14,8 @@ from ...matching.scan_image import pixel_steps
 
 _GUESSES, _FINER = 6, 2
 # The pixels that directions are told by, in degrees: smaller ones take longer and hardly help. A narrow scan needs so
-# many across.
-_STEP_DEG, _LEAST_ACROSS = 0.6, 90
+# many across; and what a scan of few rows (or columns) measured is not averaged, for it tells little as it is.
+_STEP_DEG, _LEAST_ACROSS, _FEW_ROWS = 0.6, 90, 60
 # As a camera aside is fitted: pixels, tile, radius, blur and spread, on the coarse level and on the middle one.
 _ROUGHLY, _CLOSER = (*COARSE, 10, 1.5, 1.2), (*MIDDLE, 10, 1.0, 0.8)
 
@@ -33,7 +33,8 @@ def coarseness(views):
     """
     extent = max(length * step for length, step in zip(views.scan.shape, pixel_steps(views.scan), strict=True))
     across = extent / views.step_deg
-    return max(1, min(round(_STEP_DEG / views.step_deg), int(across / _LEAST_ACROSS)))
+    most = min(int(across / _LEAST_ACROSS), min(views.scan.shape) // _FEW_ROWS)
+    return max(1, min(round(_STEP_DEG / views.step_deg), most))
 
 
 def first_look(views, photo, step=lambda: None):
