@@ -214,6 +214,8 @@ def test_what_was_colored_earlier_is_deleted_where_no_photo_shows_the_scan_any_m
     }
     # What the manifest does not name any more is not touched.
     assert (results / "hall_2.png").is_file()
+    # Looks and matches that said nothing leave no empty logs.
+    assert all(log.stat().st_size for log in (results / "logs").iterdir())
 
 
 def test_names_in_the_table_of_pairs_that_the_batch_does_not_have_are_told(archive, batch):

@@ -70,6 +70,15 @@ class _Process:
     log: object = None
     listener: threading.Thread | None = None
 
+    def end_log(self):
+        """Close the log; one that nothing was written to is removed."""
+        if self.log is not None:
+            log, self.log = self.log, None
+            with contextlib.suppress(OSError):
+                log.close()
+                if not os.path.getsize(log.name):
+                    os.unlink(log.name)
+
 
 class Workers:
     """Some workers; a context manager that ends them.
@@ -109,8 +118,7 @@ class Workers:
                 worker.process.wait()
             # A process started by the worker may keep its output open.
             worker.listener.join(1.0)
-            if worker.log:
-                worker.log.close()
+            worker.end_log()
         self._processes.clear()
 
     def work(self, tasks, finished, progress, begin=lambda task: True):
@@ -150,9 +158,7 @@ class Workers:
                 outcome = self._outcome(worker, answer)
                 if outcome is not None:
                     task, worker.task = worker.task, None
-                    if worker.log:
-                        worker.log.close()
-                        worker.log = None
+                    worker.end_log()
                     stopping = bool(finished(task, outcome)) or stopping
 
     def _outcome(self, worker, answer):
