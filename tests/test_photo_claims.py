@@ -245,9 +245,9 @@ def test_the_place_of_a_camera_is_that_in_the_world():
     assert 2 < camera_place(posed, AHEAD)[6] < 4
 
 
-def rounds_of(ranks, claims=None, *, first=(), partners=None, few=False):
+def rounds_of(ranks, claims=None, *, first=(), partners=None, few=False, strengths=None):
     """All rounds, with these claims and partners after the first: pairs of a photo and a scan."""
-    tries, rounds, found = Tries(ranks, dict(first), few), [], Verdicts({})
+    tries, rounds, found = Tries(ranks, dict(first), few, strengths=strengths), [], Verdicts({})
     while pairs := tries.next(found, (partners or {}) if rounds else {}):
         rounds.append({(photo, name) for name, photos in pairs.items() for photo in photos})
         found = Verdicts(claims or {})
@@ -307,9 +307,33 @@ def test_scans_that_measured_the_same_as_the_one_that_a_photo_shows_are_tried_ev
     ranks = {"a": [("hall", 1.0), *((name, 1.0) for name in _NAMES), ("hall again", 0.0)]}
     found = {"a": [claim("hall", 80.0, HALL, evidence=2.0)]}
     assert count(rounds_of(ranks | _OTHERS, found), "a") == 1
-    rounds = rounds_of(ranks | _OTHERS, found, partners={"a": {"hall", "hall again"}})
+    rounds = rounds_of(ranks | _OTHERS, found, partners={"a": {"hall": 2.5, "hall again": 2.2}})
     assert {("a", "hall again")} == {pair for pair in rounds[1] if pair[0] == "a"}
     assert count(rounds, "a") == 2
+
+
+def test_scans_that_may_be_of_one_place_are_tried_after_those_that_surely_are():
+    ranks = {photo: [("hall", 1.0), *((name, 1.0) for name in _NAMES), ("other", 0.0)] for photo in "ab"}
+    found = {photo: [claim("hall", 80.0, HALL, evidence=2.0)] for photo in "ab"}
+    tries, partners = Tries(ranks | _OTHERS, {}), {"a": {"other": 1.4}, "b": {"other": 2.2}}
+    tries.next(Verdicts({}), {})
+    # One pair a round.
+    tries._size = 1
+    rounds = [tries.next(Verdicts(found), partners) for _ in range(2)]
+    assert rounds == [{"other": {"b": ()}}, {"other": {"a": ()}}]
+
+
+def test_a_photo_for_which_looks_found_little_anywhere_is_tried_on_fewer_scans():
+    ranks = {photo: [(name, 1.0) for name in _NAMES] for photo in ("little", "much", "not looked at twice")}
+    rounds = rounds_of(ranks | _OTHERS, strengths={"little": 6.0, "much": 60.0})
+    assert count(rounds, "much") == count(rounds, "not looked at twice") == MOST_SCANS
+    assert 1 < count(rounds, "little") < MOST_SCANS / 2
+    # One of its place, which another photo shows, is tried even so.
+    both = [claim("hall", 80.0, HALL, evidence=2.0), claim("hall again", 80.0, HALL_AGAIN, evidence=2.0)]
+    found = {"little": both[:1], "much": both}
+    ranks = {photo: [("hall", 1.0), *own, ("hall again", 0.0)] for photo, own in ranks.items()}
+    rounds = rounds_of(ranks | _OTHERS, found, strengths={"little": 6.0, "much": 60.0})
+    assert any(("little", "hall again") in pairs for pairs in rounds)
 
 
 def test_what_was_likeliest_at_the_first_look_is_tried_before_the_rest_unless_the_photo_was_found():

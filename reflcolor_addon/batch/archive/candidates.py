@@ -19,6 +19,8 @@ _LIKELIEST, _TELLING = 2, 20.0
 # After the second look the first one counts less, by the last power. All were fitted to the looks at a third of the
 # archive of ``python -m benchmarks.archive --seed 0``.
 _FIRST, _SECOND, _FIRST_AFTER = (1.0, 8.0), (0.6, 4.0), 0.25
+# On some scans nothing speaks for most photos: what is usual there is taken to be no less than this.
+_LEAST_USUAL = 0.3
 # Photos taken within this many seconds, or meters, of each other probably show the same thing.
 _TOGETHER_S, _TOGETHER_M = 60.0, 10.0
 # Cameras seldom store their time zone, so times may differ by this much; a scan from another day is less likely.
@@ -51,7 +53,7 @@ def ranks(scores, moments=None, scanned=None, overlaps=None, second=False):
     # A scan with much detail gets higher scores with every photo; what counts is how much a photo stands out.
     shares = {}
     for name, own in scores.items():
-        usual = max(median_high(own.values()), 1e-9) ** leveled if own else 1.0
+        usual = max(median_high(own.values()), _LEAST_USUAL) ** leveled if own else 1.0
         for photo, score in own.items():
             shares.setdefault(photo, {})[name] = score / usual
     shares = {

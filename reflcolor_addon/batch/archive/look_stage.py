@@ -60,6 +60,14 @@ class Looks:
         """Return the pairs that are worth matching, whatever is found for others: for each item its photos."""
         return all_of_them(self.ranks) if self.few else telling(self.first, self.strengths)
 
+    def strongest(self):
+        """Return for the path of each photo the most that second looks gave for it on any item."""
+        found = {}
+        for own in self.strengths.values():
+            for photo, strength in own.items():
+                found[photo] = max(found.get(photo, 0.0), strength)
+        return found
+
     def rank(self):
         """Put the items in order by what the looks gave so far."""
         known = self.moments, self.scanned, self.overlaps

@@ -104,7 +104,7 @@ def match_items(context, items, own, looks, known_pairs, matched):
     rounds = _Rounds(context, items, own, looks, known_pairs, matched)
     rounds.match(rounds.given())
     if whole:
-        tries = Tries(looks.ranks, looks.first, looks.few, looks.overlaps)
+        tries = Tries(looks.ranks, looks.first, looks.few, looks.overlaps, looks.strongest())
         while pairs := tries.next(verdicts := rounds.verdicts(), rounds.partners(verdicts)):
             rounds.match(pairs)
     else:
@@ -283,7 +283,8 @@ class _Rounds:
         return Verdicts(claims, self._compared, self._looks.overlaps, self._partners)
 
     def partners(self, verdicts):
-        """The items that are probably of the place which a photo was found to show, for the path of each photo."""
+        """The items that may be of the place which a photo was found to show, for the path of each photo: how many
+        times as well as usual what was measured there fits them."""
         if self._looks.few:
             return {}
         pictures = {
@@ -300,11 +301,11 @@ class _Rounds:
         }
         if new:
             self._fits |= looks_of_scans(self._context, self._items.values(), new, self._looks)
-        beside, found = verdicts.beside(), defaultdict(set)
+        beside, found = verdicts.beside(), defaultdict(dict)
         for (path, name), picture in pictures.items():
             own = partners(self._fits.get(picture, {}), self._looks.usual, beside[name])
             self._partners[picture] = own
-            found[path].update(own)
+            found[path] |= {item: max(times, found[path].get(item, 0.0)) for item, times in own.items()}
         return found
 
     def _claim(self, name, path, pairs):

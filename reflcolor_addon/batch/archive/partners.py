@@ -96,12 +96,13 @@ def partners(scores, usual, confirmed=()):
 
     Returns
     -------
-    list of str
-        Their names; empty where nothing stands out.
+    dict of str to float
+        How many times as well as usual it fits each of them, by their names; empty where nothing stands out.
     """
     shares = {name: score / usual[name] for name, score in scores.items() if usual.get(name, 0.0) > 0}
-    if len(shares) < 2:
-        return []
-    best = max((share for name, share in shares.items() if name not in confirmed), default=0.0)
-    least = max(_STANDS_OUT * median_high(shares.values()), _NEARLY * best)
-    return sorted(name for name, share in shares.items() if share >= least > 0)
+    usually = median_high(shares.values()) if len(shares) > 1 else 0.0
+    if usually == 0:
+        return {}
+    times = {name: share / usually for name, share in shares.items()}
+    best = max((own for name, own in times.items() if name not in confirmed), default=0.0)
+    return {name: times[name] for name in sorted(times) if times[name] >= max(_STANDS_OUT, _NEARLY * best)}

@@ -2,13 +2,15 @@
 
 from collections import defaultdict
 
-# On how many scans a photo is tried at most.
-MOST_SCANS = 9
+# On how many scans a photo is tried at most; and on how many if the looks found so little for it anywhere.
+MOST_SCANS, _OF_LITTLE, _LITTLE = 9, 4, 20.0
 # How many pairs a round has for each photo. In a small archive, or with so few photos, a round tries a photo on several
 # scans: scans are not read again and again, and no processor waits for the last pair of a short round.
 _IN_A_ROUND, _AT_ONCE, _FEW_PHOTOS = 0.5, 3, 24
 # A photo does not always pass the test where it belongs; this often it does not.
 _MISSED = 0.4
+# From how many times the usual on a partner is of the same place nearly always; and how often it is from fewer.
+_SURELY, _PROBABLY = 1.9, 0.2
 # How often another scan shows the place of a photo that was found; and what is not worth trying for that.
 _ANOTHER, _WORTH = 0.2, 0.05
 # Which share of all pairs is matched at most, beyond the first round and scans that another photo shows to be of one
@@ -31,14 +33,17 @@ class Tries:
         Whether there are so few pairs that a photo which is not placed may be tried on all scans.
     overlaps : dict of str to list of str, optional
         For each photo others that show partly the same, those first that agree best.
+    strengths : dict of str to float, optional
+        For each photo the most that second looks found for it on any scan.
     """
 
-    def __init__(self, ranks, first, few=False, overlaps=None):
+    def __init__(self, ranks, first, few=False, overlaps=None, strengths=None):
         count = sum(map(len, ranks.values()))
         self._ranks, self._tried, self._rounds = ranks, {photo: set() for photo in ranks}, 0
         self._overlaps, self._helpers = overlaps or {}, {}
         self._first = {photo: own[0][0] for photo, own in first.items() if own}
-        self._most = count if few else MOST_SCANS
+        little = {photo for photo, strength in (strengths or {}).items() if strength < _LITTLE}
+        self._most = {photo: count if few else _OF_LITTLE if photo in little else MOST_SCANS for photo in ranks}
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
         self._size = max(1, int(len(ranks) * (self._at_once if self._at_once > 1 else _IN_A_ROUND)))
         self._left = count if few else max(len(ranks), int(_MOST_PAIRS * count))
@@ -50,8 +55,9 @@ class Tries:
         ----------
         verdicts : Verdicts
             On what was found so far.
-        partners : dict of str to set of str
-            For photos that were found: other scans that are probably of the same place.
+        partners : dict of str to dict of str to float
+            For photos that were found: other scans that may be of the same place, and how many times as well as usual
+            what was measured there fits them; see `partners.partners`.
 
         Returns
         -------
@@ -111,22 +117,27 @@ class Tries:
             seen = {name for own in (shown, *others) for name in own}
             neighbors = seen.union(*(beside[item] for item in seen))
             free |= {(photo, name) for name in neighbors}
-            neighbors |= set(partners.get(photo, ()))
-            chances += [(-chance, photo, name) for chance, name in self._of(photo, photo in placed, shown, neighbors)]
+            probable = partners.get(photo, {})
+            neighbors |= {name for name, times in probable.items() if times >= _SURELY}
+            own = self._of(photo, photo in placed, shown, neighbors, probable)
+            chances += [(-chance, photo, name) for name, chance in own.items()]
         return [(photo, name) for _, photo, name in sorted(chances)], free
 
-    def _of(self, photo, placed, shown, neighbors):
-        """How likely it is that a photo shows each of the scans that it may be tried on: (chance, item)."""
+    def _of(self, photo, placed, shown, neighbors, probable):
+        """How likely it is that a photo shows each of the scans that it may be tried on."""
         ranked, tried = self._ranks[photo], self._tried[photo]
         open_ones = [(share, name) for name, share in ranked if name not in tried]
         # A scan of the same place comes before all others, and so does what was likeliest at the first look: the second
         # one fits a camera to the best directions alone, and may miss the right one.
         likeliest = None if placed else self._first.get(photo)
-        certain = [(1.0, name) for _, name in open_ones if name in neighbors or name == likeliest]
-        room = self._most - len(tried)
-        if room <= 0 or certain:
+        certain = {name: 1.0 for _, name in open_ones if name in neighbors or name == likeliest}
+        if certain:
             return certain
+        room = max(self._most[photo] - len(tried), 0)
         missed = _MISSED * sum(share for name, share in ranked if name in tried and name not in shown)
         every = max(sum(share for share, _ in open_ones) + missed, 1e-12)
-        chances = [((_ANOTHER if placed else 1.0) * share / every, name) for share, name in open_ones[:room]]
-        return [(chance, name) for chance, name in chances if chance >= _WORTH] if placed else chances
+        chances = {name: (_ANOTHER if placed else 1.0) * share / every for share, name in open_ones[:room]}
+        if placed:
+            chances = {name: chance for name, chance in chances.items() if chance >= _WORTH}
+        partners = (name for _, name in open_ones if name in probable)
+        return chances | {name: max(chances.get(name, 0.0), _PROBABLY) for name in partners}

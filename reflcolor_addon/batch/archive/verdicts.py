@@ -24,8 +24,8 @@ class Verdicts:
         Where comparisons of claims are kept from one time to the next.
     overlaps : dict of str to list of str, optional
         For the path of each photo those of others that show partly the same.
-    partners : dict of str to list of str, optional
-        For the `Claim.picture` of what a scan measured the items that are probably of the same place.
+    partners : dict of str to collection of str, optional
+        For the `Claim.picture` of what a scan measured the items that may be of the same place.
     """
 
     def __init__(self, claims, known=None, overlaps=None, partners=None):

@@ -76,8 +76,8 @@ class _Process:
             log, self.log = self.log, None
             with contextlib.suppress(OSError):
                 log.close()
-                if not os.path.getsize(log.name):
-                    os.unlink(log.name)
+                if Path(log.name).stat().st_size == 0:
+                    Path(log.name).unlink()
 
 
 class Workers:
