@@ -287,7 +287,7 @@ def test_a_photo_that_looks_like_another_scan_is_found_by_one_that_overlaps_it(t
     monkeypatch.setattr(look_stage, "merged", lambda first, second: second)
     monkeypatch.setattr(match_stage, "looks_of_scans", lambda *_: {})
     monkeypatch.setattr(candidates, "ALL_PAIRS", 0)
-    for name, value in (("_AT_ONCE", 1), ("MOST_SCANS", 1), ("_MOST_PAIRS", 0.0)):
+    for name, value in (("_AT_ONCE", 1), ("MOST_SCANS", 1), ("MOST_PAIRS", 0.0)):
         monkeypatch.setattr(tries, name, value)
     assert main(["batch", str(tmp_path / "batch.toml"), "--jobs", "1", "--keep-going"]) == 0
     with (tmp_path / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:

@@ -118,7 +118,7 @@ def test_a_photo_that_was_found_is_tried_on_the_other_scan_of_its_room(tmp_path,
     (tmp_path / "batch.toml").write_text("\n".join(lines), encoding="utf-8")
     # As in a large archive: one try, and then nothing but partners.
     monkeypatch.setattr(candidates, "ALL_PAIRS", 0)
-    for name, value in (("_AT_ONCE", 1), ("_MOST_PAIRS", 1.0), ("_WORTH", 2.0)):
+    for name, value in (("_AT_ONCE", 1), ("MOST_PAIRS", 1.0), ("_WORTH", 2.0)):
         monkeypatch.setattr(tries, name, value)
     assert main(["batch", str(tmp_path / "batch.toml"), "--jobs", "1", "--keep-going"]) == 0
     with (tmp_path / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:

@@ -17,7 +17,7 @@ from .costs import (
 from .options import COLOR, LOOK, MATCH, RENDERING
 from .overlap_stage import MOST_COMPARED
 from .progress_lines import duration
-from .tries import MOST_SCANS
+from .tries import MOST_PAIRS, MOST_SCANS
 
 # A photo colors one place; some places have so many times as many photos as usual.
 _MORE_THAN_USUAL = 3.0
@@ -99,7 +99,7 @@ def expected(manifest, options, costs):
         # was measured where it was found is looked for in all of them.
         looks += SECONDS_PER_SECOND_LOOK * photos * min(SECOND_LOOKS, offered) / offered
         looks_of_scans = SECONDS_PER_LOOK_OF_SCANS * photos
-        pairs = photos * min(MOST_SCANS, offered) / offered
+        pairs = photos * min(MOST_SCANS, max(1.0, MOST_PAIRS * offered)) / offered
     of_stages = {
         LOOK: own * looks,
         MATCH: own * (looks_of_scans + SECONDS_PER_PAIR * pairs),

@@ -15,7 +15,7 @@ _SURELY, _PROBABLY = 1.9, 0.2
 _ANOTHER, _WORTH = 0.2, 0.05
 # Which share of all pairs is matched at most, beyond the first round and scans that another photo shows to be of one
 # place.
-_MOST_PAIRS = 0.105
+MOST_PAIRS = 0.105
 # How many photos help to place another one.
 MOST_HELPERS = 3
 
@@ -46,7 +46,7 @@ class Tries:
         self._most = {photo: count if few else _OF_LITTLE if photo in little else MOST_SCANS for photo in ranks}
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
         self._size = max(1, int(len(ranks) * (self._at_once if self._at_once > 1 else _IN_A_ROUND)))
-        self._left = count if few else max(len(ranks), int(_MOST_PAIRS * count))
+        self._left = count if few else max(len(ranks), int(MOST_PAIRS * count))
 
     def next(self, verdicts, partners):
         """Return the pairs of the next round; none at the end.
