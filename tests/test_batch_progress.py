@@ -117,7 +117,7 @@ def test_what_is_expected_is_what_the_stages_need(stages):
     manifest = SimpleNamespace(items=items, photos=[Path(f"{k}.jpg") for k in range(40)])
     costs = Costs(scans={item.plan.scans[0]: 1_000_000 for item in items})
     found = expected(manifest, Options(stages=stages, workers=1, memory=1 << 30), costs)
-    # In a small archive a photo is matched with fewer scans than it may be at most: no more than a share of all pairs is.
+    # In a small archive no photo is matched with as many scans as it may be: only a share of all pairs is matched.
     matches = {} if stages == ("look",) else {"match": 30 * 0.1 * 40 + 10 * 0.105 * 30 * 40}
     colors = {"color": 30 * 9.5, "render": 0.0} if "color" in stages else {}
     looks = 0.25 * 30 * 40 * (1 if stages == ("look",) else 2) + (0 if stages == ("look",) else 0.01 * 40 * 20)

@@ -147,6 +147,11 @@ def test_photos_that_overlap_may_be_verified_on_different_scans_of_one_place():
     found = {"a": [one, missed], "b": [claim("hall", 60.0)]}
     found["c"] = [claim("hall", 60.0, HALL), claim("hall again", 60.0, HALL_AGAIN)]
     assert Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown == ("hall again",)
+    # Or from several, each of which shows two scans beside each other.
+    found["c"] = [claim("hall", 60.0, HALL), claim("stairs", 60.0, HALL_AGAIN)]
+    assert not Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown
+    found["d"] = [claim("stairs", 60.0, CELLAR), claim("hall again", 60.0, CELLAR)]
+    assert Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown == ("hall again",)
 
 
 def test_what_a_look_saw_counts_where_a_match_found_less():
@@ -307,20 +312,9 @@ def test_scans_that_measured_the_same_as_the_one_that_a_photo_shows_are_tried_ev
     ranks = {"a": [("hall", 1.0), *((name, 1.0) for name in _NAMES), ("hall again", 0.0)]}
     found = {"a": [claim("hall", 80.0, HALL, evidence=2.0)]}
     assert count(rounds_of(ranks | _OTHERS, found), "a") == 1
-    rounds = rounds_of(ranks | _OTHERS, found, partners={"a": {"hall": 2.5, "hall again": 2.2}})
+    rounds = rounds_of(ranks | _OTHERS, found, partners={"a": {"hall", "hall again"}})
     assert {("a", "hall again")} == {pair for pair in rounds[1] if pair[0] == "a"}
     assert count(rounds, "a") == 2
-
-
-def test_scans_that_may_be_of_one_place_are_tried_after_those_that_surely_are():
-    ranks = {photo: [("hall", 1.0), *((name, 1.0) for name in _NAMES), ("other", 0.0)] for photo in "ab"}
-    found = {photo: [claim("hall", 80.0, HALL, evidence=2.0)] for photo in "ab"}
-    tries, partners = Tries(ranks | _OTHERS, {}), {"a": {"other": 1.4}, "b": {"other": 2.2}}
-    tries.next(Verdicts({}), {})
-    # One pair a round.
-    tries._size = 1
-    rounds = [tries.next(Verdicts(found), partners) for _ in range(2)]
-    assert rounds == [{"other": {"b": ()}}, {"other": {"a": ()}}]
 
 
 def test_a_photo_for_which_looks_found_little_anywhere_is_tried_on_fewer_scans():

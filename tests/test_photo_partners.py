@@ -59,39 +59,32 @@ def test_a_scan_is_found_again_from_another_place_in_its_room_among_other_rooms(
     scans |= {f"other {number}": Room(number).scan() for number in (2, 3, 4)}
     picture = PhotoImage("here", partners.picture_of(ScanViews(scans["here"]), *np.nonzero(scans["here"].valid)))
     scores = {name: partners.look(ScanViews(scan), picture) for name, scan in scans.items() if name != "here"}
-    assert named(scores, dict.fromkeys(scores, 1.0)) == ["aside"]
+    assert partners.partners(scores, dict.fromkeys(scores, 1.0)) == ["aside"]
     bare = random_scan(shape=(4, 5))
     assert partners.look(ScanViews(bare), picture) == 0
     assert partners.look(ScanViews(scans["aside"]), PhotoImage("gray", np.full((60, 90, 3), 9, np.uint8))) == 0
 
 
-def named(*known):
-    """The names of partners."""
-    return list(partners.partners(*known))
-
-
 def test_partners_stand_out_from_what_is_usual():
     usual = dict.fromkeys("abcde", 10.0)
-    scores = {"a": 30, "b": 26, "c": 13, "d": 11, "e": 10}
-    assert partners.partners(scores, usual) == {"a": pytest.approx(30 / 13), "b": 2.0}
-    assert named(scores, usual) == ["a", "b"]
-    assert named({"a": 12, "b": 11, "c": 10, "d": 9, "e": 9}, usual) == []
+    assert partners.partners({"a": 30, "b": 26, "c": 13, "d": 11, "e": 10}, usual) == ["a", "b"]
+    assert partners.partners({"a": 12, "b": 11, "c": 10, "d": 9, "e": 9}, usual) == []
     # One with much detail fits everything.
-    assert named(scores, usual | {"a": 30, "b": 25}) == []
-    assert named({"a": 30.0}, usual) == named({}, usual) == []
-    assert named({"a": 0.0, "b": 0.0, "c": 0.0}, usual) == []
+    assert partners.partners({"a": 30, "b": 26, "c": 13, "d": 11, "e": 10}, usual | {"a": 30, "b": 25}) == []
+    assert partners.partners({"a": 30.0}, usual) == partners.partners({}, usual) == []
+    assert partners.partners({"a": 0.0, "b": 0.0, "c": 0.0}, usual) == []
     # What no photo was looked at for tells nothing, and hides nothing.
-    assert named(scores | {"f": 12}, usual) == ["a", "b"]
-    assert named(scores | {"f": 9}, usual | {"f": 0.0}) == ["a", "b"]
+    assert partners.partners({"a": 30, "b": 26, "c": 13, "d": 11, "e": 10, "f": 12}, usual) == ["a", "b"]
+    assert partners.partners({"a": 30, "b": 26, "c": 13, "d": 11, "e": 10, "f": 9}, usual | {"f": 0.0}) == ["a", "b"]
 
 
 def test_beside_a_scan_from_the_same_place_scans_next_to_it_are_partners_once_that_is_known():
     scores = {"again": 60, "next": 35, "far": 15, "b": 20, "c": 20, "d": 19, "e": 18}
     usual = dict.fromkeys(scores, 20.0)
-    assert named(scores, usual) == ["again"]
-    assert named(scores, usual, {"again"}) == ["again", "next"]
+    assert partners.partners(scores, usual) == ["again"]
+    assert partners.partners(scores, usual, {"again"}) == ["again", "next"]
     # Where nothing else stands out, nothing else is one.
-    assert named(scores | {"next": 21}, usual, {"again"}) == ["again"]
+    assert partners.partners(scores | {"next": 21}, usual, {"again"}) == ["again"]
 
 
 def test_pictures_are_kept_by_the_files_and_not_for_files_that_could_not_be_hashed(tmp_path):

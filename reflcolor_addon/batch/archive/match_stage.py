@@ -283,8 +283,7 @@ class _Rounds:
         return Verdicts(claims, self._compared, self._looks.overlaps, self._partners)
 
     def partners(self, verdicts):
-        """The items that may be of the place which a photo was found to show, for the path of each photo: how many
-        times as well as usual what was measured there fits them."""
+        """The items that are probably of the place which a photo was found to show, for the path of each photo."""
         if self._looks.few:
             return {}
         pictures = {
@@ -301,11 +300,11 @@ class _Rounds:
         }
         if new:
             self._fits |= looks_of_scans(self._context, self._items.values(), new, self._looks)
-        beside, found = verdicts.beside(), defaultdict(dict)
+        beside, found = verdicts.beside(), defaultdict(set)
         for (path, name), picture in pictures.items():
             own = partners(self._fits.get(picture, {}), self._looks.usual, beside[name])
             self._partners[picture] = own
-            found[path] |= {item: max(times, found[path].get(item, 0.0)) for item, times in own.items()}
+            found[path].update(own)
         return found
 
     def _claim(self, name, path, pairs):

@@ -22,9 +22,8 @@ _MOST_PIXELS = 640
 # How much narrower it is than one with a pixel for each return, so that nearly every pixel has one.
 _FILLED = 0.8
 # A scan is a partner if the picture fits it so many times as well as it usually fits a scan, and nearly as well as the
-# best. Of 20 pictures of rooms that were scanned twice, 18 named the other scan; all 60 pictures of two archives named
-# 46 scans of other rooms (``python -m benchmarks.looks 7 8``).
-_STANDS_OUT, _NEARLY = 1.3, 0.8
+# best (``python -m benchmarks.looks`` says how many right and wrong ones that names).
+_STANDS_OUT, _NEARLY = 1.6, 0.8
 
 
 def picture_of(views, rows, cols):
@@ -96,13 +95,12 @@ def partners(scores, usual, confirmed=()):
 
     Returns
     -------
-    dict of str to float
-        How many times as well as usual it fits each of them, by their names; empty where nothing stands out.
+    list of str
+        Their names; empty where nothing stands out.
     """
     shares = {name: score / usual[name] for name, score in scores.items() if usual.get(name, 0.0) > 0}
-    usually = median_high(shares.values()) if len(shares) > 1 else 0.0
-    if usually == 0:
-        return {}
-    times = {name: share / usually for name, share in shares.items()}
-    best = max((own for name, own in times.items() if name not in confirmed), default=0.0)
-    return {name: times[name] for name in sorted(times) if times[name] >= max(_STANDS_OUT, _NEARLY * best)}
+    if len(shares) < 2:
+        return []
+    best = max((share for name, share in shares.items() if name not in confirmed), default=0.0)
+    least = max(_STANDS_OUT * median_high(shares.values()), _NEARLY * best)
+    return sorted(name for name, share in shares.items() if share >= least > 0)

@@ -3,16 +3,14 @@
 from collections import defaultdict
 
 # On how many scans a photo is tried at most; and on how many if the looks found so little for it anywhere.
-MOST_SCANS, _OF_LITTLE, _LITTLE = 9, 4, 20.0
+MOST_SCANS, _OF_LITTLE, _LITTLE = 9, 3, 20.0
 # How many pairs a round has for each photo. In a small archive, or with so few photos, a round tries a photo on several
 # scans: scans are not read again and again, and no processor waits for the last pair of a short round.
 _IN_A_ROUND, _AT_ONCE, _FEW_PHOTOS = 0.5, 3, 24
 # A photo does not always pass the test where it belongs; this often it does not.
 _MISSED = 0.4
-# From how many times the usual on a partner is of the same place nearly always; and how often it is from fewer.
-_SURELY, _PROBABLY = 1.9, 0.2
 # How often another scan shows the place of a photo that was found; and what is not worth trying for that.
-_ANOTHER, _WORTH = 0.2, 0.05
+_ANOTHER, _WORTH = 0.2, 0.1
 # Which share of all pairs is matched at most, beyond the first round and scans that another photo shows to be of one
 # place.
 MOST_PAIRS = 0.105
@@ -55,9 +53,8 @@ class Tries:
         ----------
         verdicts : Verdicts
             On what was found so far.
-        partners : dict of str to dict of str to float
-            For photos that were found: other scans that may be of the same place, and how many times as well as usual
-            what was measured there fits them; see `partners.partners`.
+        partners : dict of str to set of str
+            For photos that were found: other scans that are probably of the same place.
 
         Returns
         -------
@@ -117,27 +114,22 @@ class Tries:
             seen = {name for own in (shown, *others) for name in own}
             neighbors = seen.union(*(beside[item] for item in seen))
             free |= {(photo, name) for name in neighbors}
-            probable = partners.get(photo, {})
-            neighbors |= {name for name, times in probable.items() if times >= _SURELY}
-            own = self._of(photo, photo in placed, shown, neighbors, probable)
-            chances += [(-chance, photo, name) for name, chance in own.items()]
+            neighbors |= set(partners.get(photo, ()))
+            chances += [(-chance, photo, name) for chance, name in self._of(photo, photo in placed, shown, neighbors)]
         return [(photo, name) for _, photo, name in sorted(chances)], free
 
-    def _of(self, photo, placed, shown, neighbors, probable):
-        """How likely it is that a photo shows each of the scans that it may be tried on."""
+    def _of(self, photo, placed, shown, neighbors):
+        """How likely it is that a photo shows each of the scans that it may be tried on: (chance, item)."""
         ranked, tried = self._ranks[photo], self._tried[photo]
         open_ones = [(share, name) for name, share in ranked if name not in tried]
         # A scan of the same place comes before all others, and so does what was likeliest at the first look: the second
         # one fits a camera to the best directions alone, and may miss the right one.
         likeliest = None if placed else self._first.get(photo)
-        certain = {name: 1.0 for _, name in open_ones if name in neighbors or name == likeliest}
-        if certain:
+        certain = [(1.0, name) for _, name in open_ones if name in neighbors or name == likeliest]
+        room = self._most[photo] - len(tried)
+        if room <= 0 or certain:
             return certain
-        room = max(self._most[photo] - len(tried), 0)
         missed = _MISSED * sum(share for name, share in ranked if name in tried and name not in shown)
         every = max(sum(share for share, _ in open_ones) + missed, 1e-12)
-        chances = {name: (_ANOTHER if placed else 1.0) * share / every for share, name in open_ones[:room]}
-        if placed:
-            chances = {name: chance for name, chance in chances.items() if chance >= _WORTH}
-        partners = (name for _, name in open_ones if name in probable)
-        return chances | {name: max(chances.get(name, 0.0), _PROBABLY) for name in partners}
+        chances = [((_ANOTHER if placed else 1.0) * share / every, name) for share, name in open_ones[:room]]
+        return [(chance, name) for chance, name in chances if chance >= _WORTH] if placed else chances

@@ -24,8 +24,8 @@ class Verdicts:
         Where comparisons of claims are kept from one time to the next.
     overlaps : dict of str to list of str, optional
         For the path of each photo those of others that show partly the same.
-    partners : dict of str to collection of str, optional
-        For the `Claim.picture` of what a scan measured the items that may be of the same place.
+    partners : dict of str to list of str, optional
+        For the `Claim.picture` of what a scan measured the items that are probably of the same place.
     """
 
     def __init__(self, claims, known=None, overlaps=None, partners=None):
@@ -37,7 +37,7 @@ class Verdicts:
         # Whatever contradicts a claim, for each; and what speaks for it, together with the best photo that agrees. One
         # that overlaps it does not count: it shows the same, and would make the same mistake.
         self._rivals, self._weights = defaultdict(list), {claim: claim.weight for claim in self._verified}
-        self._supported, self._of_one_place = set(), set()
+        self._supported, self._sites = set(), {}
         self._compare_photos()
         self._compare_places()
         self._unhelped = set()
@@ -125,7 +125,8 @@ class Verdicts:
                     place |= dict.fromkeys(both, both)
             for one, other in combinations(verified, 2):
                 if other in place[one] and self._compared(one, other, same_place) is not False:
-                    self._of_one_place |= {(one.item, other.item), (other.item, one.item)}
+                    site = self._sites.get(one.item, {one.item}) | self._sites.get(other.item, {other.item})
+                    self._sites |= dict.fromkeys(site, site)
                 else:
                     self._contradict(one, other)
 
@@ -195,7 +196,8 @@ class Verdicts:
 
     def _backing(self, other, claim):
         """What speaks for another place because a photo that overlaps this one, and for which more speaks, shows it."""
-        if (other.item, claim.item) in self._of_one_place or other.item in self._partners.get(claim.picture, ()):
+        # Photos of one site that overlap may show different scans of it.
+        if other.item in self._sites.get(claim.item, ()) or other.item in self._partners.get(claim.picture, ()):
             return 0.0
         # Claims for which less speaks were not decided on yet: what is refused later must not speak for anything.
         backing = (
