@@ -108,20 +108,32 @@ def test_of_a_batch_that_had_nothing_to_do_all_is_done():
     assert whole.share() == 1.0
 
 
-@pytest.mark.parametrize("stages", [("look",), ("match",), ("look", "match", "color", "render")])
-def test_what_is_expected_is_what_the_stages_need(stages):
+def expected_of(scans, **options):
+    """What is expected of a batch of so many scans of a megapixel and 40 photos."""
     items = [
         SimpleNamespace(offered=True, plan=SimpleNamespace(scans=[Path(f"{k}.ptx")], outputs=[], seeds=None, photos=[]))
-        for k in range(30)
+        for k in range(scans)
     ]
     manifest = SimpleNamespace(items=items, photos=[Path(f"{k}.jpg") for k in range(40)])
     costs = Costs(scans={item.plan.scans[0]: 1_000_000 for item in items})
-    found = expected(manifest, Options(stages=stages, workers=1, memory=1 << 30), costs)
-    # In a small archive no photo is matched with as many scans as it may be: only a share of all pairs is matched.
+    return expected(manifest, Options(workers=1, memory=1 << 30, **options), costs)
+
+
+@pytest.mark.parametrize("stages", [("look",), ("match",), ("look", "match", "color", "render")])
+def test_what_is_expected_is_what_the_stages_need(stages):
+    found = expected_of(30, stages=stages)
+    # Only a share of all pairs is matched.
     matches = {} if stages == ("look",) else {"match": 30 * 0.1 * 40 + 10 * 0.105 * 30 * 40}
     colors = {"color": 30 * 9.5, "render": 0.0} if "color" in stages else {}
     looks = 0.25 * 30 * 40 * (1 if stages == ("look",) else 2) + (0 if stages == ("look",) else 0.01 * 40 * 20)
     assert found == pytest.approx({"look": looks, **matches, **colors})
+
+
+def test_a_photo_is_expected_to_be_matched_with_nine_scans_at_most_and_with_one_at_least():
+    matched = {scans: expected_of(scans)["match"] - 0.1 * 40 * scans for scans in (9, 86, 300)}
+    assert matched == pytest.approx(dict.fromkeys((86, 300), 10 * 40 * 9) | {9: 10 * 40})
+    # A part of a batch cannot wait for what others find, and tries two.
+    assert expected_of(12, first=1, last=6)["match"] == pytest.approx(6 * (0.1 * 40 + 10 * 40 * 2 / 12))
 
 
 def test_progress_is_told_in_lines_where_there_is_no_terminal():

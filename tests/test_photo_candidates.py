@@ -257,10 +257,21 @@ def test_a_narrow_scan_is_looked_at_with_enough_pixels(wide, step, expected):
     assert wide / (views.step_deg * expected) >= min(0.99 * wide / step, 85)
 
 
-def test_a_scan_of_few_rows_is_looked_at_as_finely_as_it_can_be():
+@pytest.mark.parametrize(("every", "expected"), [(1, 2), (3, 2), (4, 1), (12, 1)])
+def test_of_a_scan_of_few_rows_enough_are_left_to_look_at(every, expected):
     whole = Room(1).scan(384, 520, 0.15)
     # As a spinning lidar's.
     few = replace(
-        whole, points=whole.points[::12], reflectance=whole.reflectance[::12], valid=whole.valid[::12], color=None
+        whole,
+        points=whole.points[::every],
+        reflectance=whole.reflectance[::every],
+        valid=whole.valid[::every],
+        color=None,
     )
-    assert two_looks.coarseness(ScanViews(few)) == 1 < two_looks.coarseness(ScanViews(whole))
+    assert two_looks.coarseness(ScanViews(few)) == expected
+
+
+def test_where_second_looks_find_next_to_nothing_for_most_photos_the_strongest_scan_comes_first():
+    # Scans of little detail find nothing for most photos, and then little for one that they do not show.
+    strengths = {"shown": {"a": 15.0, "b": 2.0, "c": 1.0}, "bare": {"a": 1.0, "b": 0.0, "c": 0.0}}
+    assert [name for name, _ in ranks(strengths, second=True)["a"]] == ["shown", "bare"]

@@ -4,6 +4,7 @@ from dataclasses import astuple, replace
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from reflcolor_addon import Scan
 from reflcolor_addon.batch.archive.claims import Claim, Verdict
@@ -152,6 +153,9 @@ def test_photos_that_overlap_may_be_verified_on_different_scans_of_one_place():
     assert not Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown
     found["d"] = [claim("stairs", 60.0, CELLAR), claim("hall again", 60.0, CELLAR)]
     assert Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown == ("hall again",)
+    # But not from one that shows neither, because another place is clearly right.
+    found["d"].append(claim("attic", 300.0, cells(3)))
+    assert not Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown
 
 
 def test_what_a_look_saw_counts_where_a_match_found_less():
@@ -250,9 +254,9 @@ def test_the_place_of_a_camera_is_that_in_the_world():
     assert 2 < camera_place(posed, AHEAD)[6] < 4
 
 
-def rounds_of(ranks, claims=None, *, first=(), partners=None, few=False, strengths=None):
+def rounds_of(ranks, claims=None, *, first=(), partners=None, few=False, strongest=None):
     """All rounds, with these claims and partners after the first: pairs of a photo and a scan."""
-    tries, rounds, found = Tries(ranks, dict(first), few, strengths=strengths), [], Verdicts({})
+    tries, rounds, found = Tries(ranks, dict(first), few, strongest=strongest), [], Verdicts({})
     while pairs := tries.next(found, (partners or {}) if rounds else {}):
         rounds.append({(photo, name) for name, photos in pairs.items() for photo in photos})
         found = Verdicts(claims or {})
@@ -318,16 +322,27 @@ def test_scans_that_measured_the_same_as_the_one_that_a_photo_shows_are_tried_ev
 
 
 def test_a_photo_for_which_looks_found_little_anywhere_is_tried_on_fewer_scans():
-    ranks = {photo: [(name, 1.0) for name in _NAMES] for photo in ("little", "much", "not looked at twice")}
-    rounds = rounds_of(ranks | _OTHERS, strengths={"little": 6.0, "much": 60.0})
-    assert count(rounds, "much") == count(rounds, "not looked at twice") == MOST_SCANS
-    assert 1 < count(rounds, "little") < MOST_SCANS / 2
-    # One of its place, which another photo shows, is tried even so.
+    strongest = {"little": 19.9, "enough": 20.0}
+    ranks = {photo: [(name, 1.0) for name in _NAMES] for photo in (*strongest, "not looked at twice")}
+    rounds = rounds_of(ranks | _OTHERS, strongest=strongest)
+    assert count(rounds, "little") == 3
+    assert count(rounds, "enough") == count(rounds, "not looked at twice") == MOST_SCANS
+
+
+def test_a_photo_for_which_looks_found_little_is_tried_on_every_scan_of_its_place():
+    ranks = {"little": [*((name, 1.0) for name in _NAMES), ("hall", 0.0), ("hall again", 0.0)]}
+    tries = Tries(ranks | _OTHERS, {}, overlaps={"little": ["a"]}, strongest={"little": 6.0})
+    while pairs := tries.next(Verdicts({}), {}):
+        assert not {"hall", "hall again"} & pairs.keys()
     both = [claim("hall", 80.0, HALL, evidence=2.0), claim("hall again", 80.0, HALL_AGAIN, evidence=2.0)]
-    found = {"little": both[:1], "much": both}
-    ranks = {photo: [("hall", 1.0), *own, ("hall again", 0.0)] for photo, own in ranks.items()}
-    rounds = rounds_of(ranks | _OTHERS, found, strengths={"little": 6.0, "much": 60.0})
-    assert any(("little", "hall again") in pairs for pairs in rounds)
+    pairs = tries.next(Verdicts({"a": both}), {})
+    assert all("little" in pairs[name] for name in ("hall", "hall again"))
+
+
+@pytest.mark.parametrize(("photos", "scans"), [(20, 20), (20, 16), (12, 26), (23, 14)])
+def test_every_photo_is_tried_on_its_likeliest_scan_however_few_pairs_there_are(photos, scans):
+    ranks = {f"{photo}": [(f"scan {(photo + k) % scans}", 1.0) for k in range(scans)] for photo in range(photos)}
+    assert {(f"{photo}", f"scan {photo % scans}") for photo in range(photos)} <= set().union(*rounds_of(ranks))
 
 
 def test_what_was_likeliest_at_the_first_look_is_tried_before_the_rest_unless_the_photo_was_found():

@@ -78,13 +78,22 @@ def test_partners_stand_out_from_what_is_usual():
     assert partners.partners({"a": 30, "b": 26, "c": 13, "d": 11, "e": 10, "f": 9}, usual | {"f": 0.0}) == ["a", "b"]
 
 
-def test_beside_a_scan_from_the_same_place_scans_next_to_it_are_partners_once_that_is_known():
+def test_what_hardly_stands_out_is_no_partner():
+    usual = dict.fromkeys("abcde", 10.0)
+    assert partners.partners({"a": 15.9, "b": 10, "c": 10, "d": 9, "e": 9}, usual) == []
+    assert partners.partners({"a": 16.1, "b": 10, "c": 10, "d": 9, "e": 9}, usual) == ["a"]
+
+
+def test_scans_from_beside_a_place_are_partners_once_the_scan_from_the_same_spot_is_known():
     scores = {"again": 60, "next": 35, "far": 15, "b": 20, "c": 20, "d": 19, "e": 18}
     usual = dict.fromkeys(scores, 20.0)
     assert partners.partners(scores, usual) == ["again"]
-    assert partners.partners(scores, usual, {"again"}) == ["again", "next"]
+    assert partners.partners(scores, usual, {"again"}) == ["next"]
     # Where nothing else stands out, nothing else is one.
-    assert partners.partners(scores | {"next": 21}, usual, {"again"}) == ["again"]
+    assert partners.partners(scores | {"next": 21}, usual, {"again"}) == []
+    # Scans of the place do not hide another one, however many they are.
+    most = {"one": 60, "two": 58, "three": 56, "next": 35, "b": 20, "c": 20}
+    assert partners.partners(most, dict.fromkeys(most, 20.0), {"one", "two", "three"}) == ["next"]
 
 
 def test_pictures_are_kept_by_the_files_and_not_for_files_that_could_not_be_hashed(tmp_path):

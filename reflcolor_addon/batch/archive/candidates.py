@@ -14,13 +14,12 @@ ALL_PAIRS = 300
 SECOND_LOOKS = 30
 # Where nothing is known of other scans, a photo is matched with the likeliest at the first look, and with those for
 # which at least so much speaks at the second.
-_LIKELIEST, _TELLING = 2, 20.0
+LIKELIEST, _TELLING = 2, 20.0
 # How much of a scan's usual score is taken out of a look's scores, and to which power they say how likely a pair is.
 # After the second look the first one counts less, by the last power. All were fitted to the looks at a third of the
-# archive of ``python -m benchmarks.archive --seed 0``.
-_FIRST, _SECOND, _FIRST_AFTER = (1.0, 8.0), (0.6, 4.0), 0.25
-# On some scans nothing speaks for most photos: what is usual there is taken to be no less than this.
-_LEAST_USUAL = 0.3
+# archive of ``python -m benchmarks.archive --seed 0``. On some real scans second looks find nothing for most photos:
+# what is usual there is taken to be no less than the third number (of ``python -m benchmarks.real_archive``).
+_FIRST, _SECOND, _FIRST_AFTER = (1.0, 8.0, 1e-9), (0.6, 4.0, 0.3), 0.25
 # Photos taken within this many seconds, or meters, of each other probably show the same thing.
 _TOGETHER_S, _TOGETHER_M = 60.0, 10.0
 # Cameras seldom store their time zone, so times may differ by this much; a scan from another day is less likely.
@@ -49,11 +48,11 @@ def ranks(scores, moments=None, scanned=None, overlaps=None, second=False):
     dict of str to list of (str, float)
         For each photo its items, the likeliest first, and how likely each is as a share of that.
     """
-    scanned, (leveled, telling_power) = scanned or {}, _SECOND if second else _FIRST
+    scanned, (leveled, telling_power, least) = scanned or {}, _SECOND if second else _FIRST
     # A scan with much detail gets higher scores with every photo; what counts is how much a photo stands out.
     shares = {}
     for name, own in scores.items():
-        usual = max(median_high(own.values()), _LEAST_USUAL) ** leveled if own else 1.0
+        usual = max(median_high(own.values()), least) ** leveled if own else 1.0
         for photo, score in own.items():
             shares.setdefault(photo, {})[name] = score / usual
     shares = {
@@ -116,7 +115,7 @@ def telling(first, strengths):
 
     def worth(place, name, photo):
         strength = strengths.get(name, {}).get(photo)
-        return strength is not None and (place < _LIKELIEST or strength >= _TELLING)
+        return strength is not None and (place < LIKELIEST or strength >= _TELLING)
 
     return _by_item(first, worth)
 

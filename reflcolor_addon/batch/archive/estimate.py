@@ -5,7 +5,7 @@ import math
 from ...files.memory import readable
 from ...messages import Message
 from ..plan import RENDER
-from .candidates import SECOND_LOOKS, are_few
+from .candidates import LIKELIEST, SECOND_LOOKS, are_few
 from .costs import (
     SECONDS_PER_COMPARISON,
     SECONDS_PER_LOOK,
@@ -99,7 +99,9 @@ def expected(manifest, options, costs):
         # was measured where it was found is looked for in all of them.
         looks += SECONDS_PER_SECOND_LOOK * photos * min(SECOND_LOOKS, offered) / offered
         looks_of_scans = SECONDS_PER_LOOK_OF_SCANS * photos
-        pairs = photos * min(MOST_SCANS, max(1.0, MOST_PAIRS * offered)) / offered
+        # A part of a batch tries more, as it does not wait for what the others find.
+        least = 1 if own == offered else LIKELIEST
+        pairs = photos * min(MOST_SCANS, max(least, MOST_PAIRS * offered)) / offered
     of_stages = {
         LOOK: own * looks,
         MATCH: own * (looks_of_scans + SECONDS_PER_PAIR * pairs),

@@ -105,7 +105,7 @@ def match_items(context, items, own, looks, known_pairs, matched):
     rounds.match(rounds.given())
     if whole:
         tries = Tries(looks.ranks, looks.first, looks.few, looks.overlaps, looks.strongest())
-        while pairs := tries.next(verdicts := rounds.verdicts(), rounds.partners(verdicts)):
+        while pairs := tries.next(verdicts := rounds.verdicts(), rounds.same_place(verdicts)):
             rounds.match(pairs)
     else:
         # A part of a batch does not wait for what the others find, but takes what they have found.
@@ -282,7 +282,7 @@ class _Rounds:
                     claims[path].append(self._claim(name, path, pairs))
         return Verdicts(claims, self._compared, self._looks.overlaps, self._partners)
 
-    def partners(self, verdicts):
+    def same_place(self, verdicts):
         """The items that are probably of the place which a photo was found to show, for the path of each photo."""
         if self._looks.few:
             return {}

@@ -90,17 +90,20 @@ def partners(scores, usual, confirmed=()):
         For each item the usual score of a photo there: a scan with much detail fits everything better. Of items
         without one, as those that no photo was looked at for, nothing is known.
     confirmed : collection of str
-        Items that are known to be of the place. The picture fits a scan from the same place best, and scans beside it
-        less well: what stands out is compared with the best of the others.
+        Items that are known to be of the place, which are left out. The picture fits another scan from the same spot
+        best, and scans from beside it less well: these stand out once the first one is left out.
 
     Returns
     -------
     list of str
         Their names; empty where nothing stands out.
     """
-    shares = {name: score / usual[name] for name, score in scores.items() if usual.get(name, 0.0) > 0}
+    shares = {
+        name: score / usual[name]
+        for name, score in scores.items()
+        if usual.get(name, 0.0) > 0 and name not in confirmed
+    }
     if len(shares) < 2:
         return []
-    best = max((share for name, share in shares.items() if name not in confirmed), default=0.0)
-    least = max(_STANDS_OUT * median_high(shares.values()), _NEARLY * best)
+    least = max(_STANDS_OUT * median_high(shares.values()), _NEARLY * max(shares.values()))
     return sorted(name for name, share in shares.items() if share >= least > 0)

@@ -2,8 +2,8 @@
 
 from collections import defaultdict
 
-# On how many scans a photo is tried at most; and on how many if the looks found so little for it anywhere.
-MOST_SCANS, _OF_LITTLE, _LITTLE = 9, 3, 20.0
+# On how many scans a photo is tried at most; and on how many if second looks found less than so much on every scan.
+MOST_SCANS, _FEWER_SCANS, _WEAK = 9, 3, 20.0
 # How many pairs a round has for each photo. In a small archive, or with so few photos, a round tries a photo on several
 # scans: scans are not read again and again, and no processor waits for the last pair of a short round.
 _IN_A_ROUND, _AT_ONCE, _FEW_PHOTOS = 0.5, 3, 24
@@ -11,8 +11,8 @@ _IN_A_ROUND, _AT_ONCE, _FEW_PHOTOS = 0.5, 3, 24
 _MISSED = 0.4
 # How often another scan shows the place of a photo that was found; and what is not worth trying for that.
 _ANOTHER, _WORTH = 0.2, 0.1
-# Which share of all pairs is matched at most, beyond the first round and scans that another photo shows to be of one
-# place.
+# Which share of all pairs is matched at most, but for each photo's likeliest scan and scans that another photo shows to
+# be of one place.
 MOST_PAIRS = 0.105
 # How many photos help to place another one.
 MOST_HELPERS = 3
@@ -31,17 +31,17 @@ class Tries:
         Whether there are so few pairs that a photo which is not placed may be tried on all scans.
     overlaps : dict of str to list of str, optional
         For each photo others that show partly the same, those first that agree best.
-    strengths : dict of str to float, optional
+    strongest : dict of str to float, optional
         For each photo the most that second looks found for it on any scan.
     """
 
-    def __init__(self, ranks, first, few=False, overlaps=None, strengths=None):
+    def __init__(self, ranks, first, few=False, overlaps=None, strongest=None):
         count = sum(map(len, ranks.values()))
         self._ranks, self._tried, self._rounds = ranks, {photo: set() for photo in ranks}, 0
         self._overlaps, self._helpers = overlaps or {}, {}
         self._first = {photo: own[0][0] for photo, own in first.items() if own}
-        little = {photo for photo, strength in (strengths or {}).items() if strength < _LITTLE}
-        self._most = {photo: count if few else _OF_LITTLE if photo in little else MOST_SCANS for photo in ranks}
+        weak = {photo for photo, strength in (strongest or {}).items() if strength < _WEAK}
+        self._most = {photo: count if few else _FEWER_SCANS if photo in weak else MOST_SCANS for photo in ranks}
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
         self._size = max(1, int(len(ranks) * (self._at_once if self._at_once > 1 else _IN_A_ROUND)))
         self._left = count if few else max(len(ranks), int(MOST_PAIRS * count))
@@ -63,7 +63,9 @@ class Tries:
         """
         pairs = defaultdict(dict)
         if self._rounds == 0:
-            chosen = [(photo, name) for photo, own in self._ranks.items() for name, _ in own[: self._at_once]]
+            # Every photo's likeliest scan, then every one's second.
+            places = range(self._at_once)
+            chosen = [(photo, own[k][0]) for k in places for photo, own in self._ranks.items() if k < len(own)]
             size, free = len(chosen), set()
         else:
             helped = self._helped(verdicts)

@@ -13,9 +13,9 @@ from ...matching.registration.sphere_map import Guess
 from ...matching.scan_image import pixel_steps
 
 _GUESSES, _FINER = 6, 2
-# The pixels that directions are told by, in degrees: smaller ones take longer and hardly help. A narrow scan needs so
-# many across; and what a scan of few rows (or columns) measured is not averaged, for it tells little as it is.
-_STEP_DEG, _LEAST_ACROSS, _FEW_ROWS = 0.6, 90, 60
+# The pixels that directions are told by, in degrees: smaller ones take longer and hardly help. But so many must be left
+# across, and so many of the scan's rows and columns: a spinning lidar has few, and tells nothing if they are averaged.
+_STEP_DEG, _LEAST_ACROSS, _LEAST_ROWS = 0.6, 90, 60
 # As a camera aside is fitted: pixels, tile, radius, blur and spread, on the coarse level and on the middle one.
 _ROUGHLY, _CLOSER = (*COARSE, 10, 1.5, 1.2), (*MIDDLE, 10, 1.0, 0.8)
 
@@ -33,7 +33,7 @@ def coarseness(views):
     """
     extent = max(length * step for length, step in zip(views.scan.shape, pixel_steps(views.scan), strict=True))
     across = extent / views.step_deg
-    most = min(int(across / _LEAST_ACROSS), min(views.scan.shape) // _FEW_ROWS)
+    most = min(int(across / _LEAST_ACROSS), min(views.scan.shape) // _LEAST_ROWS)
     return max(1, min(round(_STEP_DEG / views.step_deg), most))
 
 

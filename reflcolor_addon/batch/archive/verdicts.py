@@ -1,7 +1,7 @@
 """What follows from all claims of a batch together: one photo shows one place, and photos of one scan agree."""
 
 from collections import defaultdict
-from itertools import combinations
+from itertools import combinations, pairwise
 
 from .claims import Verdict
 from .places import ALIKE, agreement, same_place, unlike
@@ -37,10 +37,10 @@ class Verdicts:
         # Whatever contradicts a claim, for each; and what speaks for it, together with the best photo that agrees. One
         # that overlaps it does not count: it shows the same, and would make the same mistake.
         self._rivals, self._weights = defaultdict(list), {claim: claim.weight for claim in self._verified}
-        self._supported, self._sites = set(), {}
+        # For each item those that are connected with it by photos, each of which shows some of them.
+        self._supported, self._joined = set(), {}
         self._compare_photos()
         self._compare_places()
-        self._unhelped = set()
         self._decide()
 
     def by_photo(self):
@@ -124,10 +124,7 @@ class Verdicts:
                     both = place[one] | place[other]
                     place |= dict.fromkeys(both, both)
             for one, other in combinations(verified, 2):
-                if other in place[one] and self._compared(one, other, same_place) is not False:
-                    site = self._sites.get(one.item, {one.item}) | self._sites.get(other.item, {other.item})
-                    self._sites |= dict.fromkeys(site, site)
-                else:
+                if other not in place[one] or self._compared(one, other, same_place) is False:
                     self._contradict(one, other)
 
     def _contradict(self, one, other):
@@ -140,7 +137,26 @@ class Verdicts:
         return self._known[one, other]
 
     def _decide(self):
+        """Take claims, until these show no more scans to be beside each other."""
+        while True:
+            self._take_with_help()
+            if not self._join():
+                return
+
+    def _join(self):
+        """Join items that a photo shows beside each other; return whether they were not joined before."""
+        joined = False
+        for own in self._claims.values():
+            for one, other in pairwise(claim.item for claim in own if claim in self._shown):
+                if other not in self._joined.get(one, ()):
+                    both = self._joined.get(one, {one}) | self._joined.get(other, {other})
+                    self._joined |= dict.fromkeys(both, both)
+                    joined = True
+        return joined
+
+    def _take_with_help(self):
         """Take claims; what was placed with the help of photos that are refused there is refused, too."""
+        self._unhelped = set()
         while True:
             self._take()
             shown = {(self._path_of[claim], claim.item) for claim in self._shown}
@@ -196,8 +212,8 @@ class Verdicts:
 
     def _backing(self, other, claim):
         """What speaks for another place because a photo that overlaps this one, and for which more speaks, shows it."""
-        # Photos of one site that overlap may show different scans of it.
-        if other.item in self._sites.get(claim.item, ()) or other.item in self._partners.get(claim.picture, ()):
+        # Where scans stand beside each other, photos that overlap may show different ones of them.
+        if other.item in self._joined.get(claim.item, ()) or other.item in self._partners.get(claim.picture, ()):
             return 0.0
         # Claims for which less speaks were not decided on yet: what is refused later must not speak for anything.
         backing = (

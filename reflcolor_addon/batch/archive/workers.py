@@ -249,9 +249,10 @@ class Workers:
                     with contextlib.suppress(ValueError):
                         self._answers.put((worker, json.loads(line[1:])))
                         continue
-                if worker.log is not None:
+                # The log may be closed meanwhile.
+                if (log := worker.log) is not None:
                     with contextlib.suppress(OSError, ValueError):
-                        worker.log.write(line)
+                        log.write(line)
         self._answers.put((worker, None))
 
     def _give(self, worker, task):
