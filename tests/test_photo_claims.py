@@ -153,6 +153,10 @@ def test_photos_that_overlap_may_be_verified_on_different_scans_of_one_place():
     assert not Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown
     found["d"] = [claim("stairs", 60.0, CELLAR), claim("hall again", 60.0, CELLAR)]
     assert Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown == ("hall again",)
+    # Or from a scan beside which the photo shows this one.
+    beside = [one, missed, claim("stairs", 31.0, HALL_AGAIN)]
+    found_beside = {**found, "a": beside, "d": []}
+    assert set(Verdicts(found_beside, overlaps={"a": {"b"}}).by_photo()["a"].shown) == {"hall again", "stairs"}
     # But not from one that shows neither, because another place is clearly right.
     found["d"].append(claim("attic", 300.0, cells(3)))
     assert not Verdicts(found, overlaps={"a": {"b"}}).by_photo()["a"].shown

@@ -213,7 +213,9 @@ class Verdicts:
     def _backing(self, other, claim):
         """What speaks for another place because a photo that overlaps this one, and for which more speaks, shows it."""
         # Where scans stand beside each other, photos that overlap may show different ones of them.
-        if other.item in self._joined.get(claim.item, ()) or other.item in self._partners.get(claim.picture, ()):
+        place = {claim.item, *(its.item for its in self._of_photo[claim] if its in self._shown)}
+        beside = set().union(*(self._joined.get(item, ()) for item in place), self._partners.get(claim.picture, ()))
+        if other.item in beside:
             return 0.0
         # Claims for which less speaks were not decided on yet: what is refused later must not speak for anything.
         backing = (
