@@ -20,7 +20,7 @@ def scenario_random_acts(window):
     window.expect_error(r"^Error: (?!Python)")
     acts, seconds = RandomActs(window, SEED), {}
     yield from window.show_sidebar()
-    # Without a scan nearly everything is refused, and what is refused tries little.
+    # An act that is refused tests little.
     acts.import_scan()
     for number in range(ACTS):
         # A workspace is laid out in several turns of the event loop.

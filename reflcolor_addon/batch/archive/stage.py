@@ -226,6 +226,8 @@ def _write_log(path, outcome, before, mode="a"):
     lines = [*before, *outcome.get("lines", []), *(f"warning: {line}" for line in outcome.get("warnings", []))]
     if not outcome["done"]:
         lines.append(f"error: {outcome['error']}")
+    if not lines:
+        return
     try:
         with path.open(mode, encoding="utf-8", errors="backslashreplace") as file:
             file.writelines(f"{line}\n" for line in lines)
