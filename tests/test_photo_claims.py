@@ -100,6 +100,19 @@ def test_scans_that_see_different_parts_of_a_photo_may_all_be_shown():
     assert not alike(columns_of(HALL, 0, 8), columns_of(HALL, 7, 17))
 
 
+def test_scans_that_are_neither_alike_nor_unlike_are_of_one_place_if_what_they_measured_fits():
+    # As where a camera is a little off.
+    mixed = replace(HALL, values=(0.35 * np.array(HALL.values) + 0.65 * np.array(CELLAR.values)).tolist())
+    assert 0.2 < agreement(HALL, mixed) < 0.5 and alike(HALL, mixed) is None
+    own = {"a": [claim("hall", 60.0, HALL, picture="here"), claim("hall again", 50.0, mixed, picture="again")]}
+    assert not Verdicts(own).by_photo()["a"].shown
+    for partners in ({"here": {"hall again"}}, {"again": {"hall"}}):
+        assert Verdicts(own, partners=partners).by_photo()["a"].shown == ("hall", "hall again")
+    # That does not help where they are unlike.
+    own["a"][1] = replace(own["a"][1], reflectance=CELLAR)
+    assert not Verdicts(own, partners={"here": {"hall again"}}).by_photo()["a"].shown
+
+
 def test_a_photo_for_whose_other_place_more_speaks_shows_none_unless_it_would_fit_elsewhere_as_well():
     other = claim("cellar", 50.0, CELLAR, verified=False)
     found = verdict([claim("hall", 30.0, HALL), other])
@@ -143,7 +156,7 @@ def test_photos_that_overlap_may_be_verified_on_different_scans_of_one_place():
     missed = claim("hall", 20.0, CELLAR, verified=False)
     assert not of_two_that_overlap(one, missed, by_other={"hall": 60.0}).shown
     # That they are of one place is known from what the scans measured, or from a third photo.
-    for known in ({"hall": ["hall again"]}, {"again": ["hall"]}):
+    for known in ({"hall": {"hall again"}}, {"again": {"hall"}}):
         assert of_two_that_overlap(one, missed, by_other={"hall": 60.0}, partners=known).shown == ("hall again",)
     found = {"a": [one, missed], "b": [claim("hall", 60.0)]}
     found["c"] = [claim("hall", 60.0, HALL), claim("hall again", 60.0, HALL_AGAIN)]

@@ -80,8 +80,8 @@ def test_partners_stand_out_from_what_is_usual():
 
 def test_what_hardly_stands_out_is_no_partner():
     usual = dict.fromkeys("abcde", 10.0)
-    assert partners.partners({"a": 15.9, "b": 10, "c": 10, "d": 9, "e": 9}, usual) == []
-    assert partners.partners({"a": 16.1, "b": 10, "c": 10, "d": 9, "e": 9}, usual) == ["a"]
+    assert partners.partners({"a": 14.9, "b": 10, "c": 10, "d": 9, "e": 9}, usual) == []
+    assert partners.partners({"a": 15.1, "b": 10, "c": 10, "d": 9, "e": 9}, usual) == ["a"]
 
 
 def test_scans_from_beside_a_place_are_partners_once_the_scan_from_the_same_spot_is_known():

@@ -302,9 +302,10 @@ class _Rounds:
             self._fits |= looks_of_scans(self._context, self._items.values(), new, self._looks)
         beside, found = verdicts.beside(), defaultdict(set)
         for (path, name), picture in pictures.items():
-            own = partners(self._fits.get(picture, {}), self._looks.usual, beside[name])
-            self._partners[picture] = own
-            found[path].update(own)
+            # What was named once stays, though it is left out when it is confirmed.
+            own = self._partners.setdefault(picture, set())
+            own |= set(partners(self._fits.get(picture, {}), self._looks.usual, beside[name]))
+            found[path] |= own
         return found
 
     def _claim(self, name, path, pairs):

@@ -139,7 +139,8 @@ def agreement(one, other):
 
 
 def alike(one, other):
-    """Whether two scans measured the same behind one photo; None where they have too little in common to tell.
+    """Whether two scans measured the same behind one photo; None where they have too little in common to tell, or are
+    neither alike nor unlike, as where a camera is a little off.
 
     Parameters
     ----------
@@ -152,7 +153,7 @@ def alike(one, other):
     more = max(count**-0.5 - _LEAST_CHANGES**-0.5, 0.0)
     if found >= ALIKE + _MORE_DEVIATIONS * more:
         return True
-    return False if count >= _LEAST_CHANGES else None
+    return False if count >= _LEAST_CHANGES and unlike(found) else None
 
 
 def _correlation(one, other):

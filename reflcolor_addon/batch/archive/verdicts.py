@@ -24,7 +24,7 @@ class Verdicts:
         Where comparisons of claims are kept from one time to the next.
     overlaps : dict of str to list of str, optional
         For the path of each photo those of others that show partly the same.
-    partners : dict of str to list of str, optional
+    partners : dict of str to set of str, optional
         For the `Claim.picture` of what a scan measured the items that are probably of the same place.
     """
 
@@ -114,18 +114,23 @@ class Verdicts:
         return any(its in self._overlaps.get(own, ()) for own, its in (paths, reversed(paths)))
 
     def _compare_places(self):
-        """One photo on several items: they must be of one place. Where two see different parts of the photo, so that
-        they cannot be compared, a third one may be of one place with both."""
+        """One photo on several items: they must be of one place. Where that cannot be told, because two see different
+        parts of the photo or a camera is a little off, what the scans measured around there may tell, or a third one
+        may be of one place with both."""
         for own in self._claims.values():
             verified = [claim for claim in own if claim.verified]
             place = {claim: {claim} for claim in verified}
             for one, other in combinations(verified, 2):
-                if self._compared(one, other, same_place):
+                same = self._compared(one, other, same_place)
+                if same or (same is None and self._are_partners(one, other)):
                     both = place[one] | place[other]
                     place |= dict.fromkeys(both, both)
             for one, other in combinations(verified, 2):
                 if other not in place[one] or self._compared(one, other, same_place) is False:
                     self._contradict(one, other)
+
+    def _are_partners(self, one, other):
+        return any(its.item in self._partners.get(own.picture, ()) for own, its in ((one, other), (other, one)))
 
     def _contradict(self, one, other):
         self._rivals[one].append(other)
