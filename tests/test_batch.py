@@ -232,6 +232,18 @@ def test_names_in_the_table_of_pairs_that_the_batch_does_not_have_are_told(archi
     assert "mine.csv: 'a_b.png' is no photo of this batch" in batch("--check")[2]
 
 
+def test_a_yes_that_has_no_effect_because_the_photo_is_not_verified_is_told(archive, batch):
+    noise = np.random.default_rng(0).integers(0, 256, (40, 60, 3)).astype(np.uint8)
+    write_png(archive / "a.png", noise)
+    text = HEAD + 'pairs = "mine.csv"\nscans = "hall_[01].ptx"\nphotos = "*.png"\n'
+    (archive / "batch.toml").write_text(text, encoding="utf-8")
+    (archive / "mine.csv").write_text("scan,photo,shows\nhall_0,a.png,yes\nhall_1,a.png,no\n")
+    status, _, err = batch()
+    assert status == 0
+    assert "a.png: shows hall_0, as mine.csv says, but is not verified there, so it gives no colors" in err
+    assert "hall_1, as mine.csv says" not in err
+
+
 def test_a_texture_of_each_scan(archive, batch):
     text = (archive / "batch.toml").read_text(encoding="utf-8")
     (archive / "batch.toml").write_text(text.replace("write =", "texture = 64\nwrite ="), encoding="utf-8")

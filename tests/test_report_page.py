@@ -113,3 +113,11 @@ def test_the_four_pictures_of_a_scan_differ(browser, page, tmp_path, width):
     means = [shot[int(y) : int(y + h), int(x) : int(x + w)].reshape(-1, 3).mean(axis=0) for x, y, w, h in boxes]
     assert len(means) == 4
     assert all(np.abs(a - b).max() > 2 for number, a in enumerate(means) for b in means[:number])
+
+
+@pytest.mark.parametrize("width", [1600, 1280, 390])
+def test_the_pictures_of_a_very_flat_scan_stay_in_their_cell(browser, page, width):
+    browser.open(page, width, 900)
+    browser.value("document.querySelector('tbody .tiles').style.setProperty('--aspect', '10.6')")
+    right = "document.querySelector('tbody {}').getBoundingClientRect().right"
+    assert browser.value(right.format(".tiles div:last-child")) <= browser.value(right.format("tr td")) + 0.5

@@ -115,7 +115,7 @@ def photos_of(root):
     list of dict
         ``photo``, its name; ``small``, the path of a small picture of it, or None; ``shows``, the names of the scans
         that have its colors; ``evidence``, the most that was found for it on one of these, or else on any scan, ""
-        where it was not tried; and ``note``.
+        where nothing is recorded: it was not tried, a person decided, or the batch was interrupted; and ``note``.
     """
     recorded = _read_item(root / STATE / f"{SCANS}.json").get("photos")
     found = {str(name): [] for name in recorded} if isinstance(recorded, list) else {}
@@ -135,7 +135,7 @@ def _photo(name, pairs, small):
     best = max(shown or pairs, key=lambda pair: pair["evidence"], default=None)
     doubts = [f"{pair['scan']}: {pair['doubt']}" for pair in pairs if pair.get("doubt")]
     if best is None:
-        doubts = ["it was not tried; pairs.csv says why"]
+        doubts = ["no match is recorded here; pairs.csv says why"]
     return {
         "photo": name,
         "small": small,

@@ -4,6 +4,7 @@ from collections import defaultdict
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from ...messages import Message
 from ..paths import scan_files
 from ..plan_document import as_document
 from .claims import Claim, Verdict
@@ -317,10 +318,22 @@ class _Rounds:
         return self._claims[name, path]
 
     def decide(self):
-        """Find out what each photo shows; say where one contradicts itself."""
+        """Find out what each photo shows; say where one contradicts itself, and where a person's word has no effect."""
         self._found.decided = True
         self._found.verdicts |= self.verdicts().by_photo()
         for path, found in sorted(self._found.verdicts.items()):
             warning = found.warning(self._looks.photos[path])
             if warning is not None and self._own.intersection(found.shown + found.refused):
                 self._context.session.warnings.append(warning)
+        for (name, path), shows in self._said.items():
+            pairs = self._found.pairs[name].get(path, ())
+            if shows and name in self._own and pairs and not any(pair["verified"] for pair in pairs):
+                self._context.session.warnings.append(
+                    Message(
+                        "{photo}: shows {scan}, as {file} says, but is not verified there, so it gives no colors; four "
+                        "to six pairs picked by hand place it (hand = ... below its [[scan]] in the manifest)",
+                        photo=self._looks.photos[path],
+                        scan=name,
+                        file=self._context.manifest.pairs.name,
+                    )
+                )
