@@ -21,7 +21,7 @@ version = 1
 # Everything that is made goes into this folder.
 output = {output}
 
-# What is written of each scan: png (colorized image), glb, ply, usd, blend. The last two are made in Blender.
+# What is written of each scan: png (its image, colorized), glb, ply, e57, ptx, usd, blend; Blender makes the last two.
 write = ["png", "glb"]
 
 # A rendered picture of each scan; needs Blender.
