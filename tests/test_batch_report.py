@@ -51,6 +51,18 @@ def test_the_table_of_pairs_survives_a_spreadsheet(tmp_path):
         read_pairs(path)
 
 
+def test_a_no_that_the_batch_wrote_is_nobodys_word(tmp_path):
+    rows = [("a", "1.jpg", "no", "0.94", "not verified"), ("a", "2.jpg", "no", "2.31", "verified")]
+    rows += [("a", "3.jpg", "no", "", ""), ("a", "4.jpg", "yes", "0.20", "not verified")]
+    write_pairs(tmp_path / "pairs.csv", rows)
+    text = (tmp_path / "pairs.csv").read_text(encoding="utf-8")
+    known = {("a", "2.jpg"): False, ("a", "3.jpg"): False, ("a", "4.jpg"): True}
+    assert read_pairs(tmp_path / "pairs.csv") == known
+    # As a spreadsheet writes it in some countries.
+    (tmp_path / "pairs.csv").write_text(text.replace(",", ";").replace("0.94", "0,94").replace("2.31", "2,31"))
+    assert read_pairs(tmp_path / "pairs.csv") == known
+
+
 def test_the_report_page_is_one_file_that_tells_of_every_scan(archive, batch):
     (archive / "hall_0.ptx").write_text("no scan\n")
     batch("--keep-going")

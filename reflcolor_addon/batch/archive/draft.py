@@ -40,7 +40,7 @@ render = false
 # preset = "Natural"
 # settings = {{ tone = 1.2 }}
 
-# After a run: a copy of pairs.csv with the lines that you corrected: which photo shows which scan, and which does not.
+# After a run: a corrected copy of pairs.csv, which says which photo shows which scan.
 # pairs = "pairs-corrected.csv"
 """
 _SCANS = "\n# The scans.\nscans = [\n{lines}]\n"

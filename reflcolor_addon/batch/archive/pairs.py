@@ -27,7 +27,8 @@ def read_pairs(path):
     ----------
     path : Path
         A table with the columns ``scan`` (an item's name), ``photo`` (a path, as the manifest's folder sees it) and
-        ``shows`` ("yes", "no", or for what is not known nothing, or what a batch wrote there).
+        ``shows`` ("yes", "no", or for what is not known nothing, or what a batch wrote there). A "no" with a note
+        and evidence of less than 1 is what a batch found, and nobody's word.
 
     Returns
     -------
@@ -64,9 +65,17 @@ def read_pairs(path):
                 line=table.line_num,
                 found=row["shows"],
             )
-        if shows in (YES, NO):
+        if shows == YES or (shows == NO and not _is_found(row.get("evidence"), row.get("note"))):
             known[row["scan"].strip(), row["photo"].strip()] = shows == YES
     return known
+
+
+def _is_found(evidence, note):
+    """Whether a batch wrote these, and the evidence is not enough; spreadsheets may write commas."""
+    try:
+        return bool(note) and float(evidence.replace(",", ".")) < 1
+    except (AttributeError, ValueError):
+        return False
 
 
 def unknown_names(path, known, scans, photos):
