@@ -89,7 +89,7 @@ def _why_untried(context, item, path, matched):
     if (context.folder.recall(ITEMS, item.name) or {}).get("outcome") == FAILED:
         return Message("the scan failed")
     if not matched.decided:
-        return Message("the scan was not matched yet")
+        return Message("not decided yet, because the batch was interrupted")
     if path in matched.verdicts and matched.verdicts[path].shown:
         return Message("the photo shows {names}", names=", ".join(matched.verdicts[path].shown))
     return Message("the photo looked more like other scans")
