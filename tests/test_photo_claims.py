@@ -108,9 +108,13 @@ def test_scans_that_are_neither_alike_nor_unlike_are_of_one_place_if_what_they_m
     assert not Verdicts(own).by_photo()["a"].shown
     for partners in ({"here": {"hall again"}}, {"again": {"hall"}}):
         assert Verdicts(own, partners=partners).by_photo()["a"].shown == ("hall", "hall again")
+    # Or if another photo shows both.
+    both = [claim("hall", 60.0, CELLAR), claim("hall again", 60.0, CELLAR)]
+    assert Verdicts(own | {"b": both}).by_photo()["a"].shown == ("hall", "hall again")
+    assert not Verdicts(own | {"b": both[:1]}).by_photo()["a"].shown
     # That does not help where they are unlike.
     own["a"][1] = replace(own["a"][1], reflectance=CELLAR)
-    assert not Verdicts(own, partners={"here": {"hall again"}}).by_photo()["a"].shown
+    assert not Verdicts(own | {"b": both}, partners={"here": {"hall again"}}).by_photo()["a"].shown
 
 
 def test_a_photo_for_whose_other_place_more_speaks_shows_none_unless_it_would_fit_elsewhere_as_well():
