@@ -140,7 +140,7 @@ def measure(archive, arguments):
         {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] == shows} - archive.unknown
         for shows in ("yes", "contradiction")
     )
-    matched_pairs = sum(row["shows"] != "not tried" for row in table)
+    tried = {(row["scan"], Path(row["photo"]).stem) for row in table if row["shows"] != "not tried"}
     away = {pair: own["off"] for pair, own in zip(pairs, true, strict=True) if own["verified"]}
     verified = {pair for pair, off in away.items() if _is_right(off)}
     evidence = {(row["scan"], Path(row["photo"]).stem): row["evidence"] for row in table}
@@ -164,7 +164,7 @@ def measure(archive, arguments):
         f"{len(others)} that matching alone does not verify with a right camera"
     )
     print(f"matching alone verifies {sum(own['verified'] for own in wrong)} of {len(wrong)} wrong pairs")
-    print(f"pairs matched after the looks: {matched_pairs} ({matched_pairs / count:.1%})")
+    print(f"pairs matched after the looks: {len(tried)} ({len(tried) / count:.1%}), {len(tried & archive.true)} true")
     print(f"processor time of the batch: {batch['processor']:.0f} s ({batch['seconds']:.0f} s by the clock)")
     print(f"of all pairs: {everything:.0f} s ({of_true:.1f} s a true pair, {of_wrong:.1f} s a wrong one)")
     print(f"ratio: {batch['processor'] / everything:.3f}")

@@ -11,6 +11,7 @@ from archives import HEAD, damage_points, make_archive, table_of
 from gltf_files import Glb
 from small_scans import random_scan
 
+from benchmarks.rooms import Room
 from reflcolor_addon import Seeds, Settings, read_scans
 from reflcolor_addon.batch.archive.costs import Costs
 from reflcolor_addon.batch.archive.done import Done
@@ -242,6 +243,22 @@ def test_a_yes_that_has_no_effect_because_the_photo_is_not_verified_is_told(arch
     assert status == 0
     assert "a.png: shows hall_0, as mine.csv says, but is not verified there, so it gives no colors" in err
     assert "hall_1, as mine.csv says" not in err
+
+
+def test_a_table_of_pairs_that_is_fed_back_as_it_is_changes_nothing(archive, batch):
+    noise = np.random.default_rng(0).integers(0, 256, (40, 60, 3)).astype(np.uint8)
+    write_png(archive / "a.png", noise)
+    text = HEAD + 'scans = "hall_[01].ptx"\nphotos = "*.png"\n'
+    (archive / "batch.toml").write_text(text, encoding="utf-8")
+    for number in range(2):
+        write_ptx(Room(number).scan(40, 65, 1.2), archive / f"hall_{number}.ptx")
+    assert batch()[0] == 0
+    table = (archive / "colored" / "pairs.csv").read_bytes()
+    assert table.count(b",no,") == 2
+    (archive / "mine.csv").write_bytes(table)
+    (archive / "batch.toml").write_text(text + 'pairs = "mine.csv"\n', encoding="utf-8")
+    assert batch("--resume")[0] == 0
+    assert (archive / "colored" / "pairs.csv").read_bytes() == table
 
 
 def test_a_texture_of_each_scan(archive, batch):

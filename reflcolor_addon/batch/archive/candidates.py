@@ -14,7 +14,7 @@ ALL_PAIRS = 300
 SECOND_LOOKS = 30
 # Where nothing is known of other scans, a photo is matched with the likeliest at the first look, and with those for
 # which at least so much speaks at the second.
-LIKELIEST, _TELLING = 2, 20.0
+LIKELIEST, TELLING = 2, 20.0
 # How much of a scan's usual score is taken out of a look's scores, and to which power they say how likely a pair is.
 # After the second look the first one counts less, by the last power. All were fitted to the looks at a third of the
 # archive of ``python -m benchmarks.archive --seed 0``. On some real scans second looks find nothing for most photos:
@@ -115,7 +115,7 @@ def telling(first, strengths):
 
     def worth(place, name, photo):
         strength = strengths.get(name, {}).get(photo)
-        return strength is not None and (place < LIKELIEST or strength >= _TELLING)
+        return strength is not None and (place < LIKELIEST or strength >= TELLING)
 
     return _by_item(first, worth)
 

@@ -2,8 +2,10 @@
 
 from collections import defaultdict
 
-# On how many scans a photo is tried at most; and on how many if second looks found less than so much on every scan.
-MOST_SCANS, _FEWER_SCANS, _WEAK = 9, 3, 20.0
+from .candidates import TELLING
+
+# On how many scans a photo is tried at most; and on how many if second looks found nothing telling on any scan.
+MOST_SCANS, _FEWER_SCANS = 9, 3
 # How many pairs a round has for each photo. In a small archive, or with so few photos, a round tries a photo on several
 # scans: scans are not read again and again, and no processor waits for the last pair of a short round.
 _IN_A_ROUND, _AT_ONCE, _FEW_PHOTOS = 0.5, 3, 24
@@ -40,7 +42,7 @@ class Tries:
         self._ranks, self._tried, self._rounds = ranks, {photo: set() for photo in ranks}, 0
         self._overlaps, self._helpers = overlaps or {}, {}
         self._first = {photo: own[0][0] for photo, own in first.items() if own}
-        weak = {photo for photo, strength in (strongest or {}).items() if strength < _WEAK}
+        weak = {photo for photo, strength in (strongest or {}).items() if strength < TELLING}
         self._most = {photo: count if few else _FEWER_SCANS if photo in weak else MOST_SCANS for photo in ranks}
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
         self._size = max(1, int(len(ranks) * (self._at_once if self._at_once > 1 else _IN_A_ROUND)))

@@ -180,13 +180,13 @@ class Verdicts:
         """Take claims, that for which most speaks first, unless they contradict one that was taken."""
         self._shown, self._refused = set(), set()
         for claim in sorted(self._verified, key=self._order):
-            open_ones = [other for other in self._against(claim) if not self._is_out(other)]
+            open_ones = [other for other in self._contradicting(claim) if not self._is_out(other)]
             if claim.by_hand or (not self._is_out(claim) and self._is_clear(claim, open_ones)):
                 self._shown.add(claim)
             else:
                 self._refused.add(claim)
 
-    def _against(self, claim):
+    def _contradicting(self, claim):
         """Claims that contradict one. A photo that does not tell whether two scans are of one place may show both, if
         other photos connect them."""
         joined, own = self._joined.get(claim.item, ()), self._of_photo[claim]
@@ -201,7 +201,7 @@ class Verdicts:
 
     def _is_out(self, claim):
         """Whether a claim contradicts one that was taken, or more speaks for another place."""
-        taken = any(other in self._shown for other in self._against(claim))
+        taken = any(other in self._shown for other in self._contradicting(claim))
         return not claim.by_hand and (taken or claim in self._unhelped or bool(self._likelier(claim)))
 
     def _is_clear(self, claim, rivals):
