@@ -86,6 +86,8 @@ def test_a_slice_of_the_manifest(archive, batch):
 def test_check_alone_touches_nothing(archive, batch):
     status, out, _ = batch("--check")
     assert status == 0 and "scans: 3" in out and "memory" in out
+    assert out.splitlines()[-1] == "batch.toml: nothing wrong was found"
+    assert "takes no time" not in out and "takes no time" in batch("--check", "--resume")[1]
     assert not (archive / "colored").exists()
 
 
@@ -103,9 +105,9 @@ def test_a_scan_and_a_photo_that_cannot_be_used_are_named_before_anything_is_beg
     status, out, err = batch("--check")
     assert status == 2 and "scans: 3" not in out
     found = [line.removeprefix("error: batch.toml: ") for line in err.splitlines()]
-    assert found[0].startswith("line 10: hall_1.ptx: line 1: expected the number of columns")
-    assert found[1].startswith("line 4: a.jpg: ") and "damaged" in found[1]
-    assert found[2].startswith("line 4: b.png: is not an image that can be read")
+    assert found[0].startswith("line 4: a.jpg: ") and "damaged" in found[0]
+    assert found[1].startswith("line 4: b.png: is not an image that can be read")
+    assert found[2].startswith("line 10: hall_1.ptx: line 1: expected the number of columns")
     assert found[3:] == [
         "3 things are wrong, see above; mend these files or take them out, or go on without them by --keep-going"
     ]
@@ -131,6 +133,8 @@ def test_what_is_there_twice_is_worked_on_once_and_told(archive, batch):
     for name, copy in (("a.png", "a (copy).png"), ("hall_0.ptx", "b.ptx")):
         (archive / copy).write_bytes((archive / name).read_bytes())
     (archive / "batch.toml").write_text(HEAD + 'scans = ["hall_0.ptx", "b.ptx"]\nphotos = "a*.png"\n', encoding="utf-8")
+    told = batch("--check")[1]
+    assert "a (copy).png: the same photo as a.png" in told and "hall_0.ptx: the same scan as b.ptx" in told
     status, out, _ = batch()
     assert status == 0
     assert "a (copy).png: the same photo as a.png, so it is left out\n" in out
@@ -231,6 +235,11 @@ def test_names_in_the_table_of_pairs_that_the_batch_does_not_have_are_told(archi
     assert "mine.csv: 2 more names are of no scan or photo" in err
     (archive / "mine.csv").write_text("scan,photo,shows\nhall_0,a_b.png,yes\n")
     assert "mine.csv: 'a_b.png' is no photo of this batch" in batch("--check")[2]
+    (archive / "photos").mkdir()
+    (archive / "a b.png").rename(archive / "photos" / "a b.png")
+    (archive / "batch.toml").write_text(text.replace("*.png", "photos/*.png"), encoding="utf-8")
+    (archive / "mine.csv").write_text("scan,photo,shows\nhall_0,a b.png,yes\n")
+    assert "did you mean photos/a b.png?" in batch("--check")[2]
 
 
 def test_a_yes_that_has_no_effect_because_the_photo_is_not_verified_is_told(archive, batch):

@@ -201,6 +201,23 @@ def test_what_cannot_be_worked_on(folder, text, expected):
     assert any(expected in fault for fault in faults), faults
 
 
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ('scans = "hal_0.ptx"\n', "hall_0.ptx"),
+        ('scans = "hall_0.ptx"\nphotos = "a.png"\n', "photos/a.png"),
+        ('scans = "hall_0.ptx"\nphotos = "photos/A*.PNG"\n', "photos/a.png"),
+        ('[[scan]]\nfile = "hall_0.ptx"\nseeds = "seeds/{scan}.seeds.json"\n', "hall_0.seeds.json"),
+        ('scans = "hall_0.ptx"\npairs = "hall_0.seed.json"\n', "hall_0.seeds.json"),
+    ],
+)
+def test_a_file_that_does_not_exist_is_told_with_one_that_may_be_meant(folder, text, meant):
+    _, faults = read(folder, HEAD + text)
+    assert any(f"did you mean {meant}?" in fault for fault in faults), faults
+    _, faults = read(folder, HEAD + 'scans = "*.laz"\n')
+    assert faults[0] == "line 4: scan '*.laz': there is no such file"
+
+
 def test_what_is_wrong_for_all_scans_is_said_once_and_where_it_belongs(folder):
     text = (
         HEAD

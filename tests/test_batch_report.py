@@ -46,9 +46,22 @@ def test_the_table_of_pairs_survives_a_spreadsheet(tmp_path):
     path.write_text("scan,photo,shows\na,b,yes\na,c,ja\n")
     with pytest.raises(UsageError, match=r"pairs\.csv: line 3: shows 'ja': expected yes or no"):
         read_pairs(path)
+    path.write_text("scan\tphoto\tshows\na\tb\tyes\n")
+    assert read_pairs(path) == {("a", "b"): True}
     path.write_text("scan,photo\na,b\n")
-    with pytest.raises(UsageError, match="expected the columns " + ", ".join(COLUMNS[:3])):
+    with pytest.raises(UsageError, match="line 1: expected the columns " + ", ".join(COLUMNS[:3])):
         read_pairs(path)
+
+
+def test_everything_wrong_in_a_table_of_pairs_is_named_at_once(tmp_path):
+    path, faults = tmp_path / "pairs.csv", []
+    path.write_text("scan,photo,shows\na,b,yes\na,c,ja\na,b,no\nd\na,b,yes\n")
+    read_pairs(path, faults.append)
+    assert [str(fault).removeprefix(f"{path}: ") for fault in faults] == [
+        "line 3: shows 'ja': expected yes or no, or nothing where that is not known",
+        "line 4: says no of a and b, but line 2 says yes; leave one of them out",
+        "line 5: expected a value in each of the columns scan, photo, shows",
+    ]
 
 
 def test_a_no_that_the_batch_wrote_is_nobodys_word(tmp_path):

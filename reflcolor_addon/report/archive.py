@@ -14,7 +14,7 @@ from ..files.gate import contents
 from ..version import __version__
 from ..view.colormaps import UNKNOWN
 from ..view.preview import GUESS, INFERRED, OBSERVED
-from .archive_entries import COLUMNS, entries_of, photos_of
+from .archive_entries import COLUMNS, PAIRS, entries_of, photos_of
 
 PAGE, TABLE = "report.html", "report.csv"
 # A browser is slow with more; then there are several pages.
@@ -73,7 +73,7 @@ def _write_pages(root, entries):
     for number, (name, part) in enumerate(zip(names, parts, strict=True)):
         with written_atomically(root / name) as temporary:
             # What is told of photos stands on the first page.
-            photos = "" if number else _photos(photos_of(root))
+            photos = "" if number else _photos(photos_of(root), (root / PAIRS).is_file())
             text = _page(root, entries, part, _ways(names, parts, number), photos)
             temporary.write_text(text, encoding="utf-8", errors="xmlcharrefreplace")
     for path in root.iterdir():
@@ -124,7 +124,7 @@ def _page(root, entries, part, ways, photos):
     )
 
 
-def _photos(found):
+def _photos(found, has_pairs):
     """The table of photos; nothing where there are none."""
     if not found:
         return ""
@@ -140,12 +140,17 @@ def _photos(found):
             f'<td data-label="Note">{escape(photo["note"])}</td>',
         ]
         rows.append(f"<tr>{''.join(cells)}</tr>")
+    told = (
+        f' The table <a href="{PAIRS}">{PAIRS}</a> beside this page holds every pair of a scan and a photo; to correct '
+        "it, edit a copy and name that in the manifest."
+        if has_pairs
+        else ""
+    )
     names = ("Picture", "Photo", "Shows", "Evidence", "Note")
     heads = "".join(f'<th scope="col"><span>{name}</span></th>' for name in names)
     return (
         f'<section id="photos"><h2>Photos</h2><p class="soft">{used} of {len(found)} show a scan for certain. Evidence '
-        "of 1 or more is enough. The table pairs.csv beside this page holds every pair of a scan and a photo; to "
-        "correct it, edit a copy and name that in the manifest.</p>"
+        f"of 1 or more is enough.{told}</p>"
         f"<table><thead><tr>{heads}</tr></thead><tbody>{chr(10).join(rows)}</tbody></table></section>"
     )
 
@@ -189,7 +194,7 @@ def _row(entry):
         f'<td data-label="State" data-value="{escape(_STATES[entry["state"]])}">{state}</td>',
         _number("Returns", entry["returns"], "" if entry["returns"] == "" else f"{entry['returns']:,}"),
         _number("Colored", entry["colored"], colored),
-        _number("Confidence", entry["confidence"], str(entry["confidence"])),
+        _number("Confidence", entry["confidence"], "" if entry["confidence"] == "" else f"{entry['confidence']:.2f}"),
         _number("Photos used", entry["verified_photos"], str(entry["verified_photos"])),
         _number("Warnings", entry["warnings"], str(entry["warnings"])),
         _number("Seconds", entry["seconds"], str(entry["seconds"])),

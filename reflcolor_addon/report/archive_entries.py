@@ -12,6 +12,8 @@ from .provenance import outline, read_report
 REPORTS, STATE, ITEMS, SCANS, PHOTOS, LOOKS = "reports", "batch-state", "items", "scans", "photos", "looks"
 """Where a batch's folder holds the reports, its records, what became of the items, which there are, which photos, and
 these made small."""
+PAIRS = "pairs.csv"
+"""The table of pairs of a scan and a photo, in the batch's folder."""
 COLUMNS = (
     "scan",
     "file",
@@ -27,7 +29,8 @@ COLUMNS = (
     "seconds",
     "note",
 )
-"""What the table of figures tells of a scan."""
+"""What the table of figures tells of a scan; ``photos`` counts those that were tried, ``verified_photos`` those of them
+that color it."""
 _LARGEST_ITEM = 1 << 24
 _PAIR = {"scan", "photo", "note", "verified", "evidence"}
 
@@ -86,9 +89,9 @@ def _uncolored(root, label, item):
         "no photo that was tried shows it for certain, so it has no colors; if you know one that does, four to six "
         "pairs picked by hand place it (hand = ... below its [[scan]] in the manifest)"
         if tried
-        else "no photo was tried on it, so it has no colors; pairs.csv says why"
+        else f"no photo was tried on it, so it has no colors; {PAIRS} says why"
     )
-    counts = {"photos": len(tried) or "", "verified_photos": 0 if tried else ""}
+    counts = {"verified_photos": 0 if tried else ""}
     warnings = [str(line) for line in item.get("warnings") or []]
     if warnings:
         counts |= {"warnings": len(warnings), "details": "<p>Warnings</p>" + _list(warnings)}
@@ -135,7 +138,7 @@ def _photo(name, pairs, small):
     best = max(shown or pairs, key=lambda pair: pair["evidence"], default=None)
     doubts = [f"{pair['scan']}: {pair['doubt']}" for pair in pairs if pair.get("doubt")]
     if best is None:
-        doubts = ["no match is recorded here; pairs.csv says why"]
+        doubts = [f"no match is recorded here; {PAIRS} says why"]
     return {
         "photo": name,
         "small": small,
@@ -164,6 +167,7 @@ def _add_tried(entries, pairs):
             key=lambda pair: (not pair["verified"], -pair["evidence"]),
         )
         if label in entries:
+            entries[label]["photos"] = len(own)
             lines = (f"{pair['photo']}: {pair['note']} (evidence {pair['evidence']:.2f})" for pair in own)
             entries[label]["tried"] = "<p>Photos tried; evidence of 1 or more is enough</p>" + _list(lines)
             _add_doubts(entries[label], [f"{pair['photo']}: {pair['doubt']}" for pair in own if pair.get("doubt")])

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from ...messages import Message
 from ..paths import scan_files
 from ..plan import PLACEHOLDER
 
@@ -24,6 +25,14 @@ class Duplicates:
     photos: dict[Path, Path] = field(default_factory=dict)
     items: dict[str, str] = field(default_factory=dict)
     scans: dict[Path, Path] = field(default_factory=dict)
+
+    def told(self, name_of):
+        """Yield a `Message` for each file that is the same as another one; ``name_of`` gives the name of a path."""
+        for path, first in self.photos.items():
+            photo, first = name_of(path), name_of(first)
+            yield Message("{photo}: the same photo as {first}, so it is left out", photo=photo, first=first)
+        for path, first in self.scans.items():
+            yield Message("{scan}: the same scan as {first}", scan=name_of(path), first=name_of(first))
 
 
 def duplicates(manifest, hash_of):

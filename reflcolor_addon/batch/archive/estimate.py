@@ -61,6 +61,8 @@ def estimate(manifest, options, costs):
             memory=readable(min(sum(needs[: options.workers]), max(options.memory, needs[0]))),
         )
     )
+    if options.resume:
+        lines.append(Message("that is for the whole batch; what an earlier run has done takes no time"))
     if needs[0] > options.memory:
         lines.append(
             Message(

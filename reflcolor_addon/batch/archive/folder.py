@@ -11,7 +11,7 @@ from pathlib import Path
 from ...files.atomic import written_atomically
 from ...files.locks import try_lock
 from ...files.refusals import unwritable
-from ...report.archive_entries import ITEMS, REPORTS, STATE
+from ...report.archive_entries import ITEMS, PAIRS, REPORTS, STATE
 from ...report.report import REPORT_OPTION
 from ..plan import PREVIEW, REPORT, Output
 
@@ -49,7 +49,7 @@ class BatchFolder:
     @property
     def pairs(self):
         """The table of photos and the scans that they show."""
-        return self.root / "pairs.csv"
+        return self.root / PAIRS
 
     def state(self, *parts):
         """A path in the folder where the batch keeps its records."""

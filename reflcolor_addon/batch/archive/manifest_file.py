@@ -4,6 +4,8 @@ Its errors are collected and reported together, each with its line.
 """
 
 import tomllib
+from functools import cached_property
+from itertools import islice
 from pathlib import Path
 
 from ...errors import UsageError
@@ -16,11 +18,14 @@ from .folder import BatchFolder
 from .manifest import Item, Manifest
 from .manifest_table import ManifestTable, last_value
 from .manifest_values import faces_of, reading_of, settings_of, texture_of
+from .meant import hint
 from .names import item_names
 from .toml_lines import TomlLines
 
 FORMAT, VERSION = "reflcolor-batch", 1
 _MOST_BYTES = 64 << 20
+# Among how many files that is looked for which was probably meant by a name.
+_MOST_FILES = 20_000
 _RESULTS = tuple(suffix.removeprefix(".") for suffix in RESULT_SUFFIXES)
 _OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
 _OF_EACH = ("write", "render", "texture", "faces", "preset", "settings", "reading", "seeds")
@@ -54,8 +59,8 @@ def load_manifest(path, refuse):
         refuse(UsageError("{file}: line {line}: is not UTF-8; save it as UTF-8", file=path, line=line))
         return None
     except (ValueError, RecursionError) as error:  # not TOML, or numbers of thousands of digits
-        hint = Message("; write / between folders") if "\\" in str(error) else ""
-        refuse(UsageError("{file}: is not TOML: {reason}{hint}", file=path, reason=str(error), hint=hint))
+        way = Message("; write / between folders") if "\\" in str(error) else ""
+        refuse(UsageError("{file}: is not TOML: {reason}{way}", file=path, reason=str(error), way=way))
         return None
     return _Reader(path, document, TomlLines(text), refuse).manifest()
 
@@ -93,7 +98,9 @@ class _Reader:
         pool = list(dict.fromkeys(path for _, path in pool))
         pairs = whole.get("pairs", str)
         if pairs is not None and not (self._path.parent / pairs).is_file():
-            whole.refuse("pairs", "pairs: there is no file {path}", path=pairs)
+            whole.refuse(
+                "pairs", "pairs: there is no file {path}{hint}", path=pairs, hint=hint(pairs, self._files_below)
+            )
         if pairs is not None and (self._path.parent / pairs).absolute() == self._folder.pairs.absolute():
             whole.refuse(
                 "pairs",
@@ -121,7 +128,13 @@ class _Reader:
         for place, text in texts:
             paths = self._matching(text)
             if not paths:
-                table.refuse(place, "{what} {text!r}: there is no such file", what=what, text=text)
+                table.refuse(
+                    place,
+                    "{what} {text!r}: there is no such file{hint}",
+                    what=what,
+                    text=text,
+                    hint=hint(text, self._files_below),
+                )
             if what == "photo":
                 for path in paths:
                     self._photo_lines.setdefault(path, self._lines.of(*table.at, *place))
@@ -134,6 +147,12 @@ class _Reader:
                         )
             found += [((*table.at, *place), path) for path in paths]
         return found
+
+    @cached_property
+    def _files_below(self):
+        """The names of files in the manifest's folder and below, as a manifest has them."""
+        found = islice(self._path.parent.rglob("*"), _MOST_FILES)
+        return sorted(self._seen(path).as_posix() for path in found if path.is_file())
 
     def _matching(self, text):
         """The files that a name or a pattern means."""
@@ -249,8 +268,14 @@ class _Reader:
             return None
         path = self._path.parent / text
         if not files_of_each(path, name):
-            table.refuse("hand", "hand {text!r}: there is no file {path}", text=text, path=filled(path, name))
+            self._refuse_missing(table, "hand", text, name)
         return path
+
+    def _refuse_missing(self, table, key, text, name):
+        """Refuse a file that an item of this name needs and that does not exist."""
+        path = filled(self._path.parent / text, name)
+        near = hint(str(filled(text, name)), self._files_below)
+        table.refuse(key, "{key} {text!r}: there is no file {path}{hint}", key=key, text=text, path=path, hint=near)
 
     def _seeds(self, chain, name, photos):
         """The seeds of an item; one that the manifest names for all scans need not be there where photos are."""
@@ -262,7 +287,7 @@ class _Reader:
             if files_of_each(path, name):
                 return path
             if table is not self._whole or not photos:
-                table.refuse("seeds", "seeds {text!r}: there is no file {path}", text=text, path=filled(path, name))
+                self._refuse_missing(table, "seeds", text, name)
             return None
         return None
 

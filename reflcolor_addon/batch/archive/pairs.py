@@ -2,13 +2,13 @@
 
 import csv
 import io
-from difflib import get_close_matches
 from pathlib import Path
 
 from ...errors import ReflcolorError, UsageError
 from ...files.atomic import written_atomically
 from ...files.gate import contents
 from ...messages import Message
+from .meant import hint
 
 COLUMNS = ("scan", "photo", "shows", "evidence", "note")
 YES, NO, UNTESTED, UNTRIED = "yes", "no", "cannot be tested", "not tried"
@@ -20,7 +20,11 @@ _MOST_BYTES = 1 << 28
 _MOST_NAMES = 5
 
 
-def read_pairs(path):
+def _raise(error):
+    raise error
+
+
+def read_pairs(path, refuse=_raise):
     """Read what a person knows of pairs.
 
     Parameters
@@ -29,6 +33,8 @@ def read_pairs(path):
         A table with the columns ``scan`` (an item's name), ``photo`` (a path, as the manifest's folder sees it) and
         ``shows`` ("yes", "no", or for what is not known nothing, or what a batch wrote there). A "no" with a note
         and evidence of less than 1 is what a batch found, and nobody's word.
+    refuse : callable, optional
+        Given a UsageError for each thing that is wrong; by default the first one is raised.
 
     Returns
     -------
@@ -42,32 +48,61 @@ def read_pairs(path):
     try:
         text = contents(path, "a table of pairs (.csv)", most=_MOST_BYTES).decode("utf-8-sig")
     except ReflcolorError as error:
-        raise UsageError(error.message) from error
-    except UnicodeDecodeError as error:
-        raise UsageError("{file}: is not UTF-8; save it as UTF-8", file=path) from error
-    # A spreadsheet in some countries writes semicolons.
-    delimiter = ";" if ";" in text.partition("\n")[0] else ","
-    table = csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter)
-    known = {}
-    for row in _rows(table, path):
-        if any(row.get(name) is None for name in COLUMNS[:3]):
-            raise UsageError(
-                "{file}: line {line}: expected the columns {columns}",
-                file=path,
-                line=table.line_num,
-                columns=", ".join(COLUMNS[:3]),
+        refuse(UsageError(error.message))
+        return {}
+    except UnicodeDecodeError:
+        refuse(UsageError("{file}: is not UTF-8; save it as UTF-8", file=path))
+        return {}
+    known, lines = {}, {}
+    for line, scan, photo, shows in _rows(text, path, refuse):
+        if lines.setdefault((scan, photo), (line, shows))[1] != shows:
+            refuse(
+                UsageError(
+                    "{file}: line {line}: says {shows} of {scan} and {photo}, but line {other} says {otherwise}; "
+                    "leave one of them out",
+                    file=path,
+                    line=line,
+                    shows=YES if shows else NO,
+                    scan=scan,
+                    photo=photo,
+                    other=lines[scan, photo][0],
+                    otherwise=NO if shows else YES,
+                )
             )
-        shows = row["shows"].strip().casefold()
-        if shows not in _SHOWS:
-            raise UsageError(
-                "{file}: line {line}: shows {found!r}: expected yes or no, or nothing where that is not known",
-                file=path,
-                line=table.line_num,
-                found=row["shows"],
-            )
-        if shows == YES or (shows == NO and not _is_found(row.get("evidence"), row.get("note"))):
-            known[row["scan"].strip(), row["photo"].strip()] = shows == YES
+        known[scan, photo] = shows
     return known
+
+
+def _rows(text, path, refuse):
+    """Yield the lines in which a person says whether a scan is shown: (line, scan, photo, whether it is)."""
+
+    def wrong(line, template, /, **values):
+        refuse(UsageError("{file}: line {line}: " + template, file=path, line=line, **values))
+
+    # A spreadsheet in some countries writes semicolons, and some write tabs.
+    head = text.partition("\n")[0]
+    table = csv.DictReader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=head.count))
+    try:
+        if not set(COLUMNS[:3]).issubset(table.fieldnames or ()):
+            columns, found = ", ".join(COLUMNS[:3]), ", ".join(table.fieldnames or ()) or "nothing"
+            wrong(1, "expected the columns {columns}, found {found}", columns=columns, found=found)
+            return
+        for row in table:
+            shows = (row["shows"] or "").strip().casefold()
+            if any(row[name] is None for name in COLUMNS[:3]):
+                wrong(
+                    table.line_num, "expected a value in each of the columns {columns}", columns=", ".join(COLUMNS[:3])
+                )
+            elif shows not in _SHOWS:
+                wrong(
+                    table.line_num,
+                    "shows {found!r}: expected yes or no, or nothing where that is not known",
+                    found=row["shows"],
+                )
+            elif shows == YES or (shows == NO and not _is_found(row.get("evidence"), row.get("note"))):
+                yield table.line_num, row["scan"].strip(), row["photo"].strip(), shows == YES
+    except csv.Error as error:
+        wrong(table.line_num + 1, "is no table ({reason}); write it anew, or leave it out", reason=error)
 
 
 def _is_found(evidence, note):
@@ -95,29 +130,15 @@ def unknown_names(path, known, scans, photos):
     ]
     missing = [(name, what, names) for name, what, names in missing if name not in names]
     for name, what, names in missing[:_MOST_NAMES]:
-        near = get_close_matches(name, names, 1)
-        hint = Message("; did you mean {name}?", name=near[0]) if near else ""
         yield Message(
             "{file}: {name!r} is {what}, so what is said of it has no effect{hint}",
             file=path,
             name=name,
             what=what,
-            hint=hint,
+            hint=hint(name, names),
         )
     if len(missing) > _MOST_NAMES:
         yield Message("{file}: {count} more names are of no scan or photo", file=path, count=len(missing) - _MOST_NAMES)
-
-
-def _rows(table, path):
-    try:
-        yield from table
-    except csv.Error as error:
-        raise UsageError(
-            "{file}: line {line}: is no table ({reason}); write it anew, or leave it out",
-            file=path,
-            line=table.line_num + 1,
-            reason=error,
-        ) from error
 
 
 def write_pairs(path, rows):

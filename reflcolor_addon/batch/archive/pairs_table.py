@@ -45,6 +45,7 @@ def write_table(context, matched):
             else:
                 left_out += 1
     write_pairs(context.folder.pairs, sorted(rows))
+    context.session.say(Message("wrote {path}", path=context.folder.pairs))
     if left_out:
         context.session.say(
             Message(

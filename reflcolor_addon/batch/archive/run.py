@@ -53,8 +53,7 @@ def run_batch(manifest, options, costs, known_pairs, session):
     with ExitStack() as stack:
         fingerprints = Fingerprints(manifest.folder)
         stack.callback(fingerprints.save)
-        session.progress(0.0, Message("Looking for files that are the same"))
-        same = duplicates(manifest, lambda path: hashed(fingerprints, path, session.cancelled))
+        same = same_files(manifest, fingerprints, session)
         photos = [path for path in manifest.photos if path not in same.photos]
         workers = Workers(
             count=options.workers,
@@ -75,13 +74,20 @@ def run_batch(manifest, options, costs, known_pairs, session):
             whole=WholeProgress(expected(manifest.with_photos(photos), options, costs), options.workers),
         )
         _remember_scans(context)
-        _report_duplicates(context)
+        for line in same.told(manifest.name_of):
+            session.say(line)
         _work(context, states, known_pairs)
         context.whole.end()
         context.tell(Message("All scans are done"))
         if set(options.stages) == set(STAGES):
             _correct_items(context, states)
     return states
+
+
+def same_files(manifest, fingerprints, session):
+    """Return the `Duplicates` of a manifest; files of one size are read for that."""
+    session.progress(0.0, Message("Looking for files that are the same"))
+    return duplicates(manifest, lambda path: hashed(fingerprints, path, session.cancelled))
 
 
 def _work(context, states, known_pairs):
@@ -136,16 +142,6 @@ def _remember_scans(context):
     scans = {item.name: [name_of(path) for path in item.plan.scans] for item in context.manifest.items}
     photos = [name_of(path) for path in context.manifest.photos]
     context.folder.remember("", SCANS, {"scans": scans, "photos": photos})
-
-
-def _report_duplicates(context):
-    same, name_of = context.same, context.manifest.name_of
-    for path, first in same.photos.items():
-        context.session.say(
-            Message("{photo}: the same photo as {first}, so it is left out", photo=name_of(path), first=name_of(first))
-        )
-    for path, first in same.scans.items():
-        context.session.say(Message("{scan}: the same scan as {first}", scan=name_of(path), first=name_of(first)))
 
 
 def _correct_items(context, states):

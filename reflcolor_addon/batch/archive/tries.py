@@ -11,8 +11,9 @@ MOST_SCANS, _FEWER_SCANS = 9, 3
 _IN_A_ROUND, _AT_ONCE, _FEW_PHOTOS = 0.5, 3, 24
 # A photo does not always pass the test where it belongs; this often it does not.
 _MISSED = 0.4
-# How often another scan shows the place of a photo that was found; and what is not worth trying for that.
-_ANOTHER, _WORTH = 0.2, 0.1
+# How often another scan shows the place of a photo that was found; and what is not worth trying for that: less where
+# there are so few pairs that scans of one place are not looked for.
+_ANOTHER, _WORTH, _WORTH_OF_FEW = 0.2, 0.1, 0.05
 # Which share of all pairs is matched at most, but for each photo's likeliest scan and scans that another photo shows to
 # be of one place.
 MOST_PAIRS = 0.105
@@ -47,6 +48,7 @@ class Tries:
         self._at_once = _AT_ONCE if few or len(ranks) < _FEW_PHOTOS else 1
         self._size = max(1, int(len(ranks) * (self._at_once if self._at_once > 1 else _IN_A_ROUND)))
         self._left = count if few else max(len(ranks), int(MOST_PAIRS * count))
+        self._worth = _WORTH_OF_FEW if few else _WORTH
 
     def next(self, verdicts, partners):
         """Return the pairs of the next round; none at the end.
@@ -136,4 +138,4 @@ class Tries:
         missed = _MISSED * sum(share for name, share in ranked if name in tried and name not in shown)
         every = max(sum(share for share, _ in open_ones) + missed, 1e-12)
         chances = [((_ANOTHER if placed else 1.0) * share / every, name) for share, name in open_ones[:room]]
-        return [(chance, name) for chance, name in chances if chance >= _WORTH] if placed else chances
+        return [(chance, name) for chance, name in chances if chance >= self._worth] if placed else chances

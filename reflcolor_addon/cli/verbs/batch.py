@@ -11,10 +11,11 @@ from pathlib import Path
 from ...batch.archive.check import check_manifest
 from ...batch.archive.check_files import check_files
 from ...batch.archive.estimate import estimate
+from ...batch.archive.fingerprints import Fingerprints
 from ...batch.archive.manifest_file import load_manifest
 from ...batch.archive.options import DONE, DUPLICATE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, Options
 from ...batch.archive.pairs import read_pairs, unknown_names
-from ...batch.archive.run import run_batch
+from ...batch.archive.run import run_batch, same_files
 from ...errors import Cancelled, OutputError, ReflcolorError, UsageError
 from ...files.memory import available_bytes
 from ...messages import Message
@@ -78,7 +79,7 @@ def run(arguments, session):
         _warn_of_names(manifest, known, session)
         items = options.chosen(manifest.items)
         costs = check_files(manifest, items, unusable.append, decode=arguments.check, progress=session.progress)
-    for fault in (*faults, *unusable):
+    for fault in sorted((*faults, *unusable), key=_line_of):
         session.complain(str(fault))
     if faults or (unusable and not arguments.keep_going):
         raise UsageError(_summary(arguments, len(faults), len(unusable)))
@@ -89,6 +90,9 @@ def run(arguments, session):
     if unusable and arguments.check:
         raise UsageError(_summary(arguments, 0, len(unusable)))
     if arguments.check:
+        for line in same_files(manifest, Fingerprints(manifest.folder), session).told(manifest.name_of):
+            session.say(line)
+        session.say(Message("{file}: nothing wrong was found", file=arguments.input))
         return
     if arguments.openjd:
         session.show = _openjd(session)
@@ -127,11 +131,7 @@ def _options(arguments, manifest):
 
 def _known_pairs(manifest, refuse):
     """What a person knows of pairs of a scan and a photo."""
-    try:
-        return {} if manifest.pairs is None else read_pairs(manifest.pairs)
-    except UsageError as error:
-        refuse(error)
-        return {}
+    return {} if manifest.pairs is None else read_pairs(manifest.pairs, refuse)
 
 
 def _warn_of_names(manifest, known, session):
@@ -140,6 +140,12 @@ def _warn_of_names(manifest, known, session):
     paths = [*manifest.photos, *(path for item in manifest.items for path in item.plan.photos)]
     photos = dict.fromkeys(map(manifest.name_of, dict.fromkeys(paths)))
     session.warnings += unknown_names(manifest.pairs, known, scans, photos)
+
+
+def _line_of(fault):
+    """Where a fault stands, for their order; what is in no line comes first."""
+    values = fault.message.values
+    return str(values.get("file")), values.get("line", 0)
 
 
 def _summary(arguments, faults, unusable):
