@@ -187,6 +187,23 @@ def test_what_a_photo_shows_is_tried_for_those_that_overlap_it_beyond_the_share_
     assert pairs == int(0.105 * 1200) - 40 + 6
 
 
+def test_where_a_photo_was_refused_because_of_another_that_one_is_tried_and_may_connect_both_scans():
+    ranks = {f"{photo}": [(f"scan {k}", 1.0 / (k + 1)) for k in range(30)] for photo in range(40)}
+    overlaps = {"0": ["1"], "1": ["0"]}
+    tries = Tries(ranks, {}, overlaps=overlaps)
+    tries.next(Verdicts({}), {})
+    claims = {
+        "0": [claim("scan 20", 60.0, HALL, evidence=2.0), claim("scan 21", 0.0, verified=False)],
+        "1": [claim("scan 21", 180.0, HALL_AGAIN, evidence=2.0, photo="1.jpg")],
+    }
+    found = Verdicts(claims, overlaps=overlaps)
+    assert found.by_photo()["0"].refused == ("scan 20",)
+    assert "1" in tries.next(found, {})["scan 20"]
+    for seen, shown in ((HALL, ("scan 20",)), (CELLAR, ())):
+        both = [*claims["1"], claim("scan 20", 40.0, seen, evidence=2.0, photo="1.jpg")]
+        assert Verdicts(claims | {"1": both}, overlaps=overlaps).by_photo()["0"].shown == shown
+
+
 def helped(tries, claims):
     """What the next round of tries is helped with: (photo, item), and by which photos."""
     pairs = tries.next(Verdicts(claims), {})
@@ -293,7 +310,7 @@ def test_a_photo_that_looks_like_another_scan_is_found_by_one_that_overlaps_it(t
     with (tmp_path / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     shows, notes = ({(row["scan"], row["photo"]): row[which] for row in rows} for which in ("shows", "note"))
-    assert "verified by what photo1.png shows, too" in notes["b", "photo2.png"]
+    assert "verified with the help of photo1.png, which shows part of the same" in notes["b", "photo2.png"]
     assert shows["b", "photo1.png"] == shows["b", "photo2.png"] == "yes"
     assert shows["c", "photo2.png"] == "no"
     assert [name for name, own in shows.items() if own == "not tried"] == [

@@ -118,7 +118,9 @@ _MATCHING = {
         "zeigt {other}; zu wenig von {scan}, um Farben daraus zu nehmen"
     ),
     "verified: {evidence}": "bestätigt: {evidence}",
-    "verified by what {other} shows, too: {evidence}": "bestätigt durch das, was auch {other} zeigt: {evidence}",
+    "verified with the help of {other}, which shows part of the same: {evidence}": (
+        "bestätigt mit Hilfe von {other}, das einen Teil davon auch zeigt: {evidence}"
+    ),
     "cannot be tested: {reason}": "nicht prüfbar: {reason}",
     "not verified: {reason}": "nicht bestätigt: {reason}",
     "{scan}: {photo} cannot be tested ({reason}); pick four to six pairs by hand to place it": (

@@ -4,7 +4,7 @@ import os
 from collections import Counter
 from pathlib import Path
 
-from ...errors import ReflcolorError, UsageError
+from ...errors import ReflcolorError, ScanError
 from ...files.images import IMAGE_SUFFIXES, image_size
 from ...files.readers import SCAN_SUFFIXES, scan_pixels, text_cloud
 from ...report.archive_entries import STATE
@@ -77,15 +77,15 @@ def draft(folder, path):
 
     Raises
     ------
-    UsageError
+    ScanError
         If it holds no scan, or is no folder.
     """
     if not folder.is_dir():
-        raise UsageError("{folder}: is not a folder; name the one that holds the scans", folder=folder)
+        raise ScanError("{folder}: is not a folder; name the one that holds the scans", folder=folder)
     files = sorted(_files(folder), key=lambda file: file.as_posix())
     scans = [file for file in files if file.name.lower().endswith(SCAN_SUFFIXES) and not _is_other_text(file)]
     if not scans:
-        raise UsageError(
+        raise ScanError(
             "{folder}: holds no scan; expected files that end in one of {known}",
             folder=folder,
             known=", ".join(SCAN_SUFFIXES),

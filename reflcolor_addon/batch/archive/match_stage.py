@@ -265,6 +265,7 @@ class _Rounds:
                 "plan": as_document(plan),
                 "folder": str(self._context.folder.root),
                 "hashes": hashes,
+                "names": {path: self._looks.photos[path] for path in {*paths, *others}},
                 "helpers": helpers,
                 "placed_by": placed_by,
             },

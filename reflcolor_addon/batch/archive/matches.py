@@ -20,7 +20,7 @@ from .places import brightness_seen, camera_place, pixels_seen, reflectance_seen
 _READING = 0.1
 
 
-def match_at(plan, session, helpers=None):
+def match_at(plan, session, names, helpers=None):
     """Match photos with the scans of an item, each by itself or by others; nothing is written.
 
     Parameters
@@ -29,6 +29,8 @@ def match_at(plan, session, helpers=None):
         Of the item, with the photos to match.
     session : Session
         Whose ``registrations`` keep what is found, and know what was found for the helpers.
+    names : dict of str to str
+        What these photos and the helpers are called, by their paths.
     helpers : dict of str to list of str, optional
         For photos that overlap others which were found to show the item the paths of those, the best first. Such a
         photo is placed by what it has in common with them, and by itself only where that fails.
@@ -57,7 +59,7 @@ def match_at(plan, session, helpers=None):
             session.progress((number + 0.5) / len(plan.photos), text)
 
         try:
-            (photo,) = opened_photos([path])
+            photo = _opened(path, names)
         except ReflcolorError as error:
             problems[str(path)] = without_file(error.message)
             continue
@@ -65,7 +67,7 @@ def match_at(plan, session, helpers=None):
         def registered(scan, register, path=path, photo=photo, step=step):
             if own := helpers.get(str(path)):
                 session.registrations.place(
-                    jobs[scan], path, lambda: _by_helpers(session, jobs[scan], views[scan], photo, own, step)
+                    jobs[scan], path, lambda: _by_helpers(session, jobs[scan], views[scan], photo, own, names, step)
                 )
             return session.registrations(jobs[scan], path, register)
 
@@ -77,7 +79,14 @@ def match_at(plan, session, helpers=None):
     return {"pairs": pairs, "problems": problems}
 
 
-def _by_helpers(session, job, views, photo, paths, step):
+def _opened(path, names):
+    """A photo with the name by which the batch knows it: in an archive several files may have one name."""
+    (photo,) = opened_photos([path])
+    photo.name = names[str(path)]
+    return photo
+
+
+def _by_helpers(session, job, views, photo, paths, names, step):
     """The `Registration` of a photo by others that overlap it; None where they do not place it."""
     known = []
     for path in paths:
@@ -85,7 +94,7 @@ def _by_helpers(session, job, views, photo, paths, step):
         if registration is not None and registration.accepted:
             # One that was deleted meanwhile helps no more.
             with suppress(ReflcolorError):
-                known.append((opened_photos([path])[0], registration.model))
+                known.append((_opened(path, names), registration.model))
     return placed_by(views, photo, known, step)
 
 

@@ -87,7 +87,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
             context.done.end(state.item.name, stage)
         remember_item(context, state)
         _write_log(task.log, outcome, _matched(context, state))
-        context.session.say(_line(state, outcome, count, whole))
+        context.session.say(_line(stage, state, outcome, count, whole))
         piece.claim.close()
         _require_folder(context)
         return state.outcome == FAILED and not options.keep_going
@@ -184,7 +184,7 @@ def fail(context, state, problem):
     context.session.say(Message("{name}: failed: {problem}", name=state.item.name, problem=_bare(state.error)))
 
 
-def _line(state, outcome, count, whole):
+def _line(stage, state, outcome, count, whole):
     said = {
         DONE: Message("done in {seconds:.0f} s", seconds=outcome.get("seconds", 0)),
         UNSHOWN: _unshown(state.photos),
@@ -194,7 +194,8 @@ def _line(state, outcome, count, whole):
     if state.warnings:
         warned = Message("1 warning") if len(state.warnings) == 1 else Message("{n} warnings", n=len(state.warnings))
         said = Message("{said}, {warned} (see the report)", said=said, warned=warned)
-    return Message("{name}: {said} ({count} of {whole})", name=state.item.name, said=said, count=count, whole=whole)
+    what = Message("{count} of {whole} to {do}", count=count, whole=whole, do=stage)
+    return Message("{name}: {said} ({what})", name=state.item.name, said=said, what=what)
 
 
 def _unshown(photos):

@@ -115,8 +115,10 @@ class Tries:
         chances, free = [], set()
         for photo in self._ranks:
             shown = found[photo].shown if photo in found else ()
-            # What another photo of the same place shows, this one probably shows, too.
-            others = [found[other].shown for other in self._overlaps.get(photo, ()) if other in found]
+            # What another photo of the same place shows, this one probably shows, too. If that one was refused because
+            # this one shows another scan, this one may show both.
+            others = [found[other] for other in self._overlaps.get(photo, ()) if other in found]
+            others = [other.shown or other.refused for other in others]
             seen = {name for own in (shown, *others) for name in own}
             neighbors = seen.union(*(beside[item] for item in seen))
             free |= {(photo, name) for name in neighbors}

@@ -112,7 +112,7 @@ class _Worker:
         """Match photos with the scans of an item."""
         lines, plan, found = [], from_document(request["plan"]), {}
         session = self._session(request, plan, lines)
-        outcome = self._outcome(lambda: found.update(match_at(plan, session, request["helpers"])))
+        outcome = self._outcome(lambda: found.update(match_at(plan, session, request["names"], request["helpers"])))
         pairs = max(1, sum(map(len, found.get("pairs", {}).values())))
         return outcome | {"found": found | {"worked": 1 - min(session.registrations.recalled / pairs, 1.0)}}
 

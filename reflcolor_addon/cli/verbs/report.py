@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ...errors import ReflcolorError, UsageError
+from ...errors import ReflcolorError
 from ...messages import Message
 from ...report.archive import write_page
 from ...report.archive_entries import REPORTS
@@ -21,9 +21,9 @@ def add_arguments(parser):
 def run(arguments, session):
     """Merge the reports of a batch into report.html, which any browser opens from the disk, and report.csv."""
     if not arguments.input.is_dir():
-        raise UsageError("{folder}: there is no such folder", folder=arguments.input)
+        raise ReflcolorError("{folder}: there is no such folder", folder=arguments.input)
     if not (arguments.input / REPORTS).is_dir():
-        raise UsageError(
+        raise ReflcolorError(
             "{folder}: is not the output folder of a batch: it has no folder reports", folder=arguments.input
         )
     paths, failed = write_page(arguments.input, session)

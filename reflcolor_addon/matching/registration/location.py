@@ -138,7 +138,8 @@ def _judged(scan, photo, registration):
     if registration.accepted:
         note = Message("verified: {evidence}", evidence=said)
         if registration.beside is not None:
-            note = Message("verified by what {other} shows, too: {evidence}", other=registration.beside, evidence=said)
+            note = "verified with the help of {other}, which shows part of the same: {evidence}"
+            note = Message(note, other=registration.beside, evidence=said)
         return Location(registration, True, registration.model.kind, note)
     if registration.untestable:
         warning = "{scan}: {photo} cannot be tested ({reason}); pick four to six pairs by hand to place it"
