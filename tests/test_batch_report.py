@@ -102,8 +102,15 @@ def test_a_scan_without_colors_has_its_reflectance_and_the_photos_that_were_trie
     assert 'aria-label="hall_0, after"' not in page
     assert page.count("(evidence ") == 2 and "a.png: " in page and "b.png: " in page
     assert page.count("four to six pairs") == 1
-    log = (archive / "colored" / "logs" / "hall_0.log").read_text(encoding="utf-8")
-    assert log.count("four to six pairs") == 1
+    assert '<a href="pairs.csv">' in photos and table_of(archive)["hall_0"]["photos"] == "2"
+    log = archive / "colored" / "logs" / "hall_0.log"
+    assert log.read_text(encoding="utf-8").count("four to six pairs") == 1
+    # What is tried later is told, too, although nothing else is to be done for the scan.
+    write_png(archive / "c.png", np.random.default_rng(2).integers(0, 256, (40, 60, 3)).astype(np.uint8))
+    status, out, _ = batch("--resume")
+    assert status == 0 and "wrote colored/pairs.csv" in out and "to color" not in out
+    lines = log.read_text(encoding="utf-8").splitlines()
+    assert sorted(line[:6] for line in lines[:3]) == ["a.png:", "b.png:", "c.png:"] and "(evidence " in lines[0]
 
 
 def test_a_scan_that_failed_after_it_was_read_and_a_duplicate_have_a_picture(archive, batch):

@@ -12,7 +12,7 @@ from ..plan import IMAGE, PLACEHOLDER, RENDER, Output
 from ..plan_document import as_document
 from .options import COLOR, FAILED, KNOWN, UNSHOWN
 from .pairs_table import write_table
-from .stage import remember_item, work_on
+from .stage import log_unshown, remember_item, work_on
 from .workers import Task
 
 
@@ -63,6 +63,7 @@ def colorize_items(context, states, matched):
     for state in states:
         if state.outcome == KNOWN and state.left_out and not _written(context, state):
             state.outcome = UNSHOWN
+            log_unshown(context, state)
         if state.outcome in (KNOWN, UNSHOWN):
             # Other photos may have been tried since it was done.
             remember_item(context, state)

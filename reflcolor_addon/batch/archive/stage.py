@@ -86,7 +86,9 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
         if outcome["done"]:
             context.done.end(state.item.name, stage)
         remember_item(context, state)
-        _write_log(task.log, outcome, _matched(context, state))
+        again = {f"{Path(pair['path']).name}: {pair['note']}" for pair in state.matched}
+        told = [line for line in outcome.get("lines", []) if line not in again]
+        _write_log(task.log, outcome | {"lines": told}, _matched(context, state))
         context.session.say(_line(stage, state, outcome, count, whole))
         piece.claim.close()
         _require_folder(context)
@@ -184,6 +186,11 @@ def fail(context, state, problem):
     context.session.say(Message("{name}: failed: {problem}", name=state.item.name, problem=_bare(state.error)))
 
 
+def log_unshown(context, state):
+    """Write the log of an item anew that no photo shows, as in an earlier run: others may have been tried since."""
+    _write_log(context.folder.log(state.item.name), {"done": True}, _matched(context, state), mode="w")
+
+
 def _line(stage, state, outcome, count, whole):
     said = {
         DONE: Message("done in {seconds:.0f} s", seconds=outcome.get("seconds", 0)),
@@ -215,8 +222,11 @@ def _bare(text):
 
 
 def _matched(context, state):
-    """What was found before the item was colorized, one line for each photo, and what may help."""
-    lines = [f"{context.manifest.name_of(pair['path'])}: {pair['note']}" for pair in state.matched]
+    """What was found before the item was colorized, one line for each photo, the likeliest first, and what may help."""
+    lines = [
+        f"{context.manifest.name_of(pair['path'])}: {pair['note']} (evidence {pair['evidence']:.2f})"
+        for pair in sorted(state.matched, key=lambda pair: -pair["evidence"])
+    ]
     if state.outcome == UNSHOWN and state.matched:
         lines.append("no photo shows it for certain; if you know one that does, pick four to six pairs by hand")
     return lines
