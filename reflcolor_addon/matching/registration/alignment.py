@@ -67,14 +67,13 @@ class Alignment:
         """
         images = self._images
         if model.kind == "homography":
-            return _refitted(images, photo, _sought(images[0], photo, model))
-        camera = _refitted(images, photo, model)
+            return _refitted(images, photo, _sought(images[0], photo, model))[0]
+        camera, fit_of_camera = _refitted(images, photo, model)
         flat = None if camera_only else _flat(images[0], camera, self._scan.shape)
         if flat is None or _fit_on(images[0], photo, flat) < _fit_on(images[0], photo, camera) - _WORSE:
             return camera
-        flat = _refitted(images, photo, _sought(images[0], photo, flat))
-        better = _fit_on(images[-1], photo, flat) > _fit_on(images[-1], photo, camera) + _BETTER_BY
-        return flat if better else camera
+        flat, fit_of_flat = _refitted(images, photo, _sought(images[0], photo, flat))
+        return flat if fit_of_flat > fit_of_camera + _BETTER_BY else camera
 
 
 def _flat(image, camera, grid_shape):
@@ -90,10 +89,11 @@ def _flat(image, camera, grid_shape):
 
 
 def _refitted(images, photo, model):
-    """The model fitted on one image after the other."""
+    """The model fitted on one image after the other, and how well it fits on the last one (see `_fit_on`)."""
+    fit = -np.inf
     for image in images:
-        model = _tightened(image, photo, model)
-    return model
+        model, fit = _tightened(image, photo, model)
+    return model, fit
 
 
 def _sought(image, photo, model):
@@ -113,21 +113,21 @@ def _sought(image, photo, model):
 
 
 def _tightened(image, photo, model):
-    """The model after some rounds on one image, as long as they fit better."""
+    """The model after some rounds on one image, as long as they fit better; and how well it fits."""
     tiles = _some(Tiles.of(image, _TILE))
     found = surfaces(image, tiles, photo, model, _RADIUS)
+    if found is None:
+        return model, -np.inf
     for _ in range(_ROUNDS):
-        if found is None:
-            return model
         moved = tightened(found, model, model.ALL)
         shift = np.median(np.linalg.norm(moved.project(found.sites)[0] - found.places, axis=1))
         after = surfaces(image, tiles, photo, moved, _RADIUS)
         if after is None or _fit(after) <= _fit(found):
-            return model
+            break
         model, found = moved, after
         if shift < _STILL:
-            return model
-    return model
+            break
+    return model, _fit(found)
 
 
 def _some(tiles):
