@@ -92,7 +92,8 @@ def run(arguments, session):
     if arguments.check:
         for line in same_files(manifest, Fingerprints(manifest.folder), session).told(manifest.name_of):
             session.say(line)
-        session.say(Message("{file}: nothing wrong was found", file=arguments.input))
+        told = "no error was found, but look at the warnings" if session.warnings else "nothing wrong was found"
+        session.say(Message("{file}: {told}", file=arguments.input, told=Message(told)))
         return
     if arguments.openjd:
         session.show = _openjd(session)
