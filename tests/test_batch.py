@@ -139,7 +139,7 @@ def test_what_is_there_twice_is_worked_on_once_and_told(archive, batch):
     assert status == 0
     assert "a (copy).png: the same photo as a.png, so it is left out\n" in out
     assert "hall_0.ptx: the same scan as b.ptx\n" in out
-    assert "b: the photo tried does not show it for certain (1 of 1)" in out and "1 the same as another" in out
+    assert "b: the photo tried does not show it for certain (1 of 1 to color)" in out and "1 the same as another" in out
     with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
         notes = {
             (row["scan"], row["photo"]): row["note"] for row in csv.DictReader(file) if row["shows"] == "not tried"
@@ -205,8 +205,9 @@ def test_what_was_colored_earlier_is_deleted_where_no_photo_shows_the_scan_any_m
     (results / "hall_1.png").write_bytes(b"painted over by hand")
     write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
     (archive / "batch.toml").write_text(HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
-    status, out, _ = batch("--resume")
+    status, out, err = batch("--resume")
     assert status == 0 and "2 without a certain photo" in out
+    assert "hall_1: no photo shows it for certain any more, but what was changed" in err and "stays: hall_1.png" in err
     assert "hall_0: deleted what an earlier run had colored" in out
     left = {
         path.relative_to(results).as_posix() for path in results.rglob("hall_[01]*") if "batch-state" not in path.parts
@@ -227,14 +228,14 @@ def test_names_in_the_table_of_pairs_that_the_batch_does_not_have_are_told(archi
     write_png(archive / "a b.png", np.zeros((40, 60, 3), np.uint8))
     text = HEAD + 'pairs = "mine.csv"\nscans = "hall_0.ptx"\nphotos = "*.png"\n'
     (archive / "batch.toml").write_text(text, encoding="utf-8")
-    rows = "".join(f"other {number},a b.png,no\n" for number in range(5))
+    rows = "".join(f"other {number},a b.png,no\n" for number in range(20))
     (archive / "mine.csv").write_text(f"scan,photo,shows\nhal_0,a b.png,yes\nhall_0,a_b.png,yes\n{rows}")
     status, out, err = batch("--check")
     assert status == 0 and "batch.toml: no error was found, but look at the warnings" in out
-    assert "mine.csv: 'hal_0' is no scan of this batch" in err and "did you mean hall_0?" in err
+    assert "mine.csv: line 2: 'hal_0' is no scan of this batch" in err and "did you mean hall_0?" in err
     assert "mine.csv: 2 more names are of no scan or photo" in err
     (archive / "mine.csv").write_text("scan,photo,shows\nhall_0,a_b.png,yes\n")
-    assert "mine.csv: 'a_b.png' is no photo of this batch" in batch("--check")[2]
+    assert "mine.csv: line 2: 'a_b.png' is no photo of this batch" in batch("--check")[2]
     (archive / "photos").mkdir()
     (archive / "a b.png").rename(archive / "photos" / "a b.png")
     (archive / "batch.toml").write_text(text.replace("*.png", "photos/*.png"), encoding="utf-8")
@@ -252,6 +253,12 @@ def test_a_yes_that_has_no_effect_because_the_photo_is_not_verified_is_told(arch
     assert status == 0
     assert "a.png: shows hall_0, as mine.csv says, but is not verified there, so it gives no colors" in err
     assert "hall_1, as mine.csv says" not in err
+    # The report and the table tell so, too.
+    said = "a.png: is not verified, so it gives no colors, although mine.csv says yes"
+    notes = {name: row["note"] for name, row in table_of(archive).items()}
+    assert notes["hall_0"].startswith(said) and notes["hall_1"].startswith("a.png: gives no colors, as mine.csv says")
+    assert f"hall_0: {said.removeprefix('a.png: ')}" in (archive / "colored" / "report.html").read_text("utf-8")
+    assert "; yes as mine.csv says" in (archive / "colored" / "pairs.csv").read_text("utf-8")
 
 
 def test_a_table_of_pairs_that_is_fed_back_as_it_is_changes_nothing(archive, batch):

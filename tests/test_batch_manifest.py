@@ -218,6 +218,48 @@ def test_a_file_that_does_not_exist_is_told_with_one_that_may_be_meant(folder, t
     assert faults[0] == "line 4: scan '*.laz': there is no such file"
 
 
+def test_what_people_write_by_mistake_is_told_with_what_to_write(folder):
+    def told(text):
+        return [fault.partition(": ")[2] for fault in read(folder, HEAD + text)[1]]
+
+    scan = '[[scan]]\nfile = "hall_0.ptx"\n'
+    assert told(scan + 'photos = "photos"\n') == ["photo 'photos': is a folder; photos/* means its files"]
+    # What else is wrong with a scan that does not exist is told, too, and what follows from an error is not.
+    assert told('[[scan]]\nfile = "hal_0.ptx"\nphotos = "photos/c.png"\nskip = "yes"\nsettings = { alpha = -1 }\n')[
+        :3
+    ] == [
+        "scan 'hal_0.ptx': there is no such file; did you mean hall_0.ptx?",
+        "skip: expected true or false, found 'yes'",
+        "photo 'photos/c.png': there is no such file",
+    ]
+    assert told(scan + 'photos = "photos/c.png"\n') == ["photo 'photos/c.png': there is no such file"]
+    assert told(scan + 'photos = "photos/a.png"\nscan = 1\n') == []
+    assert told(scan + 'photos = "photos/a.png"\npairs = "a.csv"\n') == [
+        "pairs: is said of the whole batch; write it at the top"
+    ]
+    assert told('tone = 1.2\nscans = "hall_0.ptx"\nphotos = "photos/a.png"\n') == [
+        "tone: is a setting; write settings = { tone = ... }"
+    ]
+    assert "found '2'" in told(scan + 'photos = "photos/a.png"\nreading = { step = "2" }\n')[0]
+    named = "".join(f'[[scan]]\nfile = "hall_{number}.ptx"\nname = "Halle"\n' for number in range(2))
+    assert told('photos = "photos/a.png"\n' + named) == ["name 'Halle': another scan has the same; give each its own"]
+
+
+@pytest.mark.parametrize(
+    ("text", "way"),
+    [
+        ('scans = "a.ptx"\n[[scans]]\n', "[[scan]] begins the table of one scan"),
+        ('scans = "a.ptx"\nscans = "b.ptx"\n', "a name may stand only once"),
+        ("settings = { tone = 1,2 }\n", "a number needs a point, not a comma"),
+        ("preset = Natural\n", "a text needs quotes"),
+        ('scans = "c:\\users\\a.ptx"\n', "write / between folders"),
+    ],
+)
+def test_what_is_no_toml_is_told_with_what_to_write(folder, text, way):
+    _, (fault,) = read(folder, HEAD + text)
+    assert fault.startswith("is not TOML: ") and way in fault and "line " in fault
+
+
 def test_what_is_wrong_for_all_scans_is_said_once_and_where_it_belongs(folder):
     text = (
         HEAD

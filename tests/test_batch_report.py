@@ -144,12 +144,11 @@ def contradiction(archive):
     return matched
 
 
-def test_a_photo_of_two_places_is_a_contradiction_in_the_table_of_pairs(archive, batch, contradiction):
-    write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
-    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
-    manifest = load_manifest(archive / "batch.toml", pytest.fail)
+def context_of(path):
+    """What `write_table` needs of a run over the batch of a manifest."""
+    manifest = load_manifest(path, pytest.fail)
     manifest.folder.make()
-    context = SimpleNamespace(
+    return SimpleNamespace(
         manifest=manifest,
         folder=manifest.folder,
         same=Duplicates(),
@@ -157,6 +156,12 @@ def test_a_photo_of_two_places_is_a_contradiction_in_the_table_of_pairs(archive,
         problems={},
         session=Session(),
     )
+
+
+def test_a_photo_of_two_places_is_a_contradiction_in_the_table_of_pairs(archive, batch, contradiction):
+    write_png(archive / "a.png", np.zeros((40, 60, 3), np.uint8))
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
+    context = context_of(archive / "batch.toml")
     write_table(context, contradiction)
     with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
         rows = {row["scan"]: row for row in csv.DictReader(file)}
@@ -167,6 +172,23 @@ def test_a_photo_of_two_places_is_a_contradiction_in_the_table_of_pairs(archive,
     write_table(context, replace(contradiction, decided=False))
     assert read_pairs(archive / "colored" / "pairs.csv") == {}
     assert "not compared with what other photos and scans show yet" in (archive / "colored" / "pairs.csv").read_text()
+
+
+def test_what_an_earlier_run_has_matched_is_told_in_the_table_of_pairs_and_decides_nothing(archive, contradiction):
+    for name in "abc":
+        write_png(archive / f"{name}.png", np.zeros((40, 60, 3), np.uint8))
+    (archive / "batch.toml").write_text(HEAD + 'scans = "hall_0.ptx"\nphotos = "?.png"\n', encoding="utf-8")
+    context = context_of(archive / "batch.toml")
+    verified = {"verified": True, "tested": True, "evidence": 1.81, "note": "verified: 31 of 58"}
+    not_verified = {"verified": False, "tested": True, "evidence": 0.2, "note": "not verified: 3 of 58"}
+    earlier = {"hall_0": {str(archive / "b.png"): [not_verified, verified], str(archive / "c.png"): [not_verified]}}
+    write_table(context, replace(contradiction, earlier=earlier))
+    with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row["photo"]: (row["shows"], row["evidence"], row["note"]) for row in csv.DictReader(file)}
+    told = "found in an earlier run, and not needed in this one"
+    assert rows["b.png"] == ("", "1.81", f"verified: 31 of 58; {told}; write yes to use it")
+    assert rows["c.png"] == ("no", "0.20", f"not verified: 3 of 58; {told}")
+    assert read_pairs(archive / "colored" / "pairs.csv").keys() == {("hall_0", "a.png")}
 
 
 def test_what_a_person_said_of_a_pair_stays_in_the_table_of_pairs(archive, batch):

@@ -138,6 +138,10 @@ def test_a_photo_gives_no_colors_where_one_that_overlaps_it_clearly_shows_anothe
     assert found == Verdict(refused=("cellar",), likelier=("hall",))
     # Neither if that speaks for it not as clearly, nor if the photo was not tried there.
     assert of_two_that_overlap(barely, missed, by_other={"hall": 39.0}).shown == ("cellar",)
+    # Nor if the photo has more evidence than wrong ones have.
+    sure = claim("cellar", 15.0, CELLAR, evidence=2.0)
+    assert of_two_that_overlap(replace(sure, evidence=1.9), missed, by_other={"hall": 60.0}).refused == ("cellar",)
+    assert of_two_that_overlap(sure, missed, by_other={"hall": 60.0}).shown == ("cellar",)
     # What would fit elsewhere as well may be there, if a photo that overlaps it is.
     repeats = replace(missed, repeats=True)
     assert of_two_that_overlap(barely, repeats, by_other={"hall": 41.0}) == found

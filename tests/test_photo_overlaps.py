@@ -193,7 +193,7 @@ def test_where_a_photo_was_refused_because_of_another_that_one_is_tried_and_may_
     tries = Tries(ranks, {}, overlaps=overlaps)
     tries.next(Verdicts({}), {})
     claims = {
-        "0": [claim("scan 20", 60.0, HALL, evidence=2.0), claim("scan 21", 0.0, verified=False)],
+        "0": [claim("scan 20", 60.0, HALL, evidence=1.9), claim("scan 21", 0.0, verified=False)],
         "1": [claim("scan 21", 180.0, HALL_AGAIN, evidence=2.0, photo="1.jpg")],
     }
     found = Verdicts(claims, overlaps=overlaps)

@@ -1,5 +1,6 @@
 """What the report of a batch shows of every scan: from the reports, and from what the batch recorded."""
 
+from collections import defaultdict
 from html import escape
 from pathlib import Path
 
@@ -75,6 +76,7 @@ def entries_of(root, session):
             entries[name] = _entry(name, "duplicate", note=note)
             duplicates[name] = str(item.get("same_as", ""))
         _add_tried(entries, _pairs(item))
+        _add_effects(entries, name, _effects(item))
     for name, same in duplicates.items():
         first = entries.get(same, entries[name])
         entries[name] |= {"preview": first["preview"], "tiles": first["tiles"]}
@@ -120,24 +122,31 @@ def photos_of(root):
         that have its colors; ``evidence``, the most that was found for it on one of these, or else on any scan, ""
         where nothing is recorded: it was not tried, a person decided, or the batch was interrupted; and ``note``.
     """
-    recorded = _read_item(root / STATE / f"{SCANS}.json").get("photos")
+    batch = _read_item(root / STATE / f"{SCANS}.json")
+    recorded, same = batch.get("photos"), batch.get("same_photos")
     found = {str(name): [] for name in recorded} if isinstance(recorded, list) else {}
+    told = defaultdict(list)
+    for name, first in same.items() if isinstance(same, dict) else ():
+        found[name] = []
+        told[name].append(f"the same file as {first}")
     small = _read_item(root / STATE / f"{PHOTOS}.json").get("small")
-    for item in _items(root).values():
+    for scan, item in _items(root).items():
         for pair in _pairs(item):
             found.setdefault(pair["photo"], []).append(pair)
+        for effect in _effects(item):
+            told[effect["photo"]].append(f"{scan}: {effect['told']}")
     small = small if isinstance(small, dict) else {}
     places = {name: root / STATE / LOOKS / Path(str(file)).name for name, file in small.items()}
-    return [_photo(name, found[name], places.get(name)) for name in sorted(found, key=str.casefold)]
+    return [_photo(name, found[name], places.get(name), told[name]) for name in sorted(found, key=str.casefold)]
 
 
-def _photo(name, pairs, small):
+def _photo(name, pairs, small, told):
     """What is told of one photo."""
     # Scans with photos of their own have no verdict of the batch.
     shown = [pair for pair in pairs if pair["verified"] and pair.get("shows", True)]
     best = max(shown or pairs, key=lambda pair: pair["evidence"], default=None)
-    doubts = [f"{pair['scan']}: {pair['doubt']}" for pair in pairs if pair.get("doubt")]
-    if best is None:
+    doubts = [f"{pair['scan']}: {pair['doubt']}" for pair in pairs if pair.get("doubt")] + told
+    if best is None and not told:
         doubts = [f"no match is recorded here; {PAIRS} says why"]
     return {
         "photo": name,
@@ -179,6 +188,20 @@ def _add_doubts(entry, doubts):
         entry["warnings"] = (entry["warnings"] or 0) + len(doubts)
         entry["note"] = "; ".join(filter(None, (entry["note"], *doubts)))
         entry["details"] = "<p>Contradictions</p>" + _list(doubts) + entry["details"]
+
+
+def _effects(item):
+    """What became of a person's word on photos of an item, as far as its record is whole."""
+    found = item.get("effects")
+    return [told for told in found or [] if isinstance(told, dict) and told.keys() >= {"photo", "told"}]
+
+
+def _add_effects(entries, name, effects):
+    """Tell below a scan where a person's word takes its colors away, or gives it none."""
+    lines = [f"{effect['photo']}: {effect['told']}" for effect in effects]
+    for label in [label for label in entries if lines and (label == name or label.startswith(f"{name}+"))]:
+        entries[label]["note"] = "; ".join(filter(None, (*lines, entries[label]["note"])))
+        entries[label]["details"] += "<p>As you said</p>" + _list(lines)
 
 
 def _add_scans(entries, scans):

@@ -30,7 +30,7 @@ def colorize_items(context, states, matched):
     for state in states:
         context.tell(Message("Looking for changes: {name}", name=state.item.name))
         plan = color_plan(context, state.item, matched)
-        state.matched = matched.told(state.item.name)
+        state.matched, state.effects = matched.told(state.item.name), matched.effects[state.item.name]
         state.refused = {path for (name, path), shows in matched.said.items() if name == state.item.name and not shows}
         inputs = [path for _, path in inputs_of(plan, plan.scans)]
         for given in filter(None, (plan.seeds, plan.hand)):

@@ -3,6 +3,7 @@
 Its errors are collected and reported together, each with its line.
 """
 
+import re
 import tomllib
 from functools import cached_property
 from itertools import islice
@@ -31,6 +32,15 @@ _OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
 _OF_EACH = ("write", "render", "texture", "faces", "preset", "settings", "reading", "seeds")
 _TABLES = ("settings", "reading")
 _OF_ONE = ("file", "name", "site", "scan", "photos", "hand", "skip")
+_ONCE = "a name may stand only once, for a key or a table; [[scan]] begins the table of one scan"
+_WAYS = {
+    "overwrite a value": _ONCE,
+    "twice": _ONCE,
+    "immutable namespace": _ONCE,
+    "Invalid value": "a text needs quotes, and a number a point, not a comma",
+    "after a key": "expected key = value; a number needs a point, not a comma",
+}
+"""What helps where a manifest is no TOML, by a part of what Python says."""
 _OF_SITE = (*_OF_EACH, "photos", "hand")
 
 
@@ -59,10 +69,20 @@ def load_manifest(path, refuse):
         refuse(UsageError("{file}: line {line}: is not UTF-8; save it as UTF-8", file=path, line=line))
         return None
     except (ValueError, RecursionError) as error:  # not TOML, or numbers of thousands of digits
-        way = Message("; write / between folders") if "\\" in str(error) else ""
+        ways = [Message("; {way}", way=Message(way)) for word, way in _WAYS.items() if word in str(error)]
+        if "\\" in str(error) or "\\" in _line_of(text, str(error)):
+            ways = [Message("; write / between folders")]
+        way = ways[0] if ways else ""
         refuse(UsageError("{file}: is not TOML: {reason}{way}", file=path, reason=str(error), way=way))
         return None
     return _Reader(path, document, TomlLines(text), refuse).manifest()
+
+
+def _line_of(text, reason):
+    """The line of a text that an error names; empty where it names none."""
+    found = re.search(r"at line (\d+)", reason)
+    lines = text.split("\n")
+    return lines[int(found[1]) - 1] if found and int(found[1]) <= len(lines) else ""
 
 
 class _Reader:
@@ -127,14 +147,11 @@ class _Reader:
         found = []
         for place, text in texts:
             paths = self._matching(text)
-            if not paths:
-                table.refuse(
-                    place,
-                    "{what} {text!r}: there is no such file{hint}",
-                    what=what,
-                    text=text,
-                    hint=hint(text, self._files_below),
-                )
+            if not paths and self._is_folder(text):
+                table.refuse(place, "{what} {text!r}: is a folder; {text}/* means its files", what=what, text=text)
+            elif not paths:
+                near = hint(text, self._files_below)
+                table.refuse(place, "{what} {text!r}: there is no such file{hint}", what=what, text=text, hint=near)
             if what == "photo":
                 for path in paths:
                     self._photo_lines.setdefault(path, self._lines.of(*table.at, *place))
@@ -168,6 +185,12 @@ class _Reader:
         except (OSError, ValueError):  # a null character, an empty pattern
             return []
 
+    def _is_folder(self, text):
+        try:
+            return (self._path.parent / text).is_dir()
+        except (OSError, ValueError):
+            return False
+
     def _seen(self, path):
         """A path as it is seen from the manifest's folder, if it lies below that."""
         folder = self._path.parent
@@ -180,9 +203,12 @@ class _Reader:
         tables = self._scan_tables()
         entries = {path: [] for path in places}
         for table in tables:
-            for _, path in self._files(table, "file", "scan") or []:
+            files = self._files(table, "file", "scan") or []
+            for _, path in files:
                 entries.setdefault(path, []).append(table)
                 places[path] = table.at
+            if not files:
+                self._look_over(table)
         of_each = self._whole
         groups, skipped = {}, set()
         for path, own in entries.items():
@@ -193,12 +219,31 @@ class _Reader:
             site = last_value(own, "site", str, None)
             key = ("site", site) if site else ("file", str(path))
             groups.setdefault(key, []).append((path, chain))
+        self._refuse_same_names([members[0][1][1:] for (kind, _), members in groups.items() if kind == "file"])
         given = [
             key if kind == "site" else last_value(members[0][1][1:], "name", str, None)
             for (kind, key), members in groups.items()
         ]
         names = item_names(given, [self._seen(members[0][0]) for members in groups.values()])
         return [self._item(name, members, places, pool) for name, members in zip(names, groups.values(), strict=True)]
+
+    def _refuse_same_names(self, chains):
+        """Refuse a name that several tables of single scans give; one table may give one to many files."""
+        first = {}
+        for chain in chains:
+            table = next((table for table in reversed(chain) if "name" in table), None)
+            name = None if table is None else table.get("name", str)
+            if name is not None and first.setdefault(name.casefold(), table) is not table:
+                table.refuse("name", "name {name!r}: another scan has the same; give each its own", name=name)
+
+    def _look_over(self, table):
+        """Find what else is wrong with a table whose scan does not exist."""
+        chain = [self._whole, table]
+        for key, kind in (("name", str), ("site", str), ("scan", (str, int)), ("hand", str), ("skip", bool)):
+            table.get(key, kind)
+        self._files(table, "photos", "photo")
+        for find in (settings_of, reading_of, texture_of, faces_of, self._outputs):
+            find(chain)
 
     def _scan_tables(self):
         if "scan" not in self._whole:
@@ -209,7 +254,7 @@ class _Reader:
             return []
         tables = [ManifestTable(values, ("scan", place), self) for place, values in enumerate(found)]
         for table in tables:
-            table.known((*_OF_ONE, *_OF_EACH))
+            table.known((*_OF_ONE, *_OF_EACH), of_all=_OF_ALL)
             if "file" not in table:
                 table.refuse(None, "file: is missing; say which scan is meant")
         return tables
@@ -223,12 +268,13 @@ class _Reader:
         offered = photos is None and seeds is None and bool(pool)
         photos = pool if photos is None else photos
         place = places[path]
-        if seeds is None and not photos:
+        # Of photos that do not exist it was told.
+        if seeds is None and not photos and not any(table.texts("photos") for table in chain):
             self.refuse_at(place, "{path}: has neither seeds nor photos; give one of them", path=path)
         outputs = self._outputs(chain)
         plan = Plan(
             scans=tuple(path for path, _ in members),
-            wanted=last_value(own, "scan", str, None) or ("all" if len(members) == 1 else None),
+            wanted=str(last_value(own, "scan", (str, int), None) or ("all" if len(members) == 1 else "")) or None,
             name=name,
             seeds=seeds,
             hand=hand,

@@ -3,9 +3,11 @@
 from difflib import get_close_matches
 
 from ...messages import Message
+from ...settings import SETTINGS
 
 # How alike a name must be to what was meant.
 _ALIKE = 0.7
+_KINDS = {str: "a text in quotes", bool: "true or false", int: "a whole number", dict: "a table"}
 
 
 class ManifestTable:
@@ -14,11 +16,16 @@ class ManifestTable:
     def __init__(self, values, at, reader):
         self._values, self.at, self._reader = values, at, reader
 
-    def known(self, names, of_one=()):
-        """Refuse every key that is none of these; ``of_one`` are keys of a table for one scan."""
+    def known(self, names, of_one=(), of_all=()):
+        """Refuse every key that is none of these; ``of_one`` and ``of_all`` are those of a single scan, and of the
+        top."""
         for name in self._values:
             if name in of_one and name not in names:
                 self.refuse(name, "{key}: is said of one scan; write it below a [[scan]] with its file", key=name)
+            elif name in of_all and name not in names:
+                self.refuse(name, "{key}: is said of the whole batch; write it at the top", key=name)
+            elif name in SETTINGS and name not in names:
+                self.refuse(name, "{key}: is a setting; write settings = {{ {key} = ... }}", key=name)
             elif name not in names:
                 near = get_close_matches(name, names, 1, _ALIKE)
                 hint = Message("; did you mean {name}?", name=near[0]) if near else ""
@@ -40,11 +47,12 @@ class ManifestTable:
         value = self._values.get(key)
         if value is None:
             return default
-        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
-            names = {str: "a text in quotes", bool: "true or false", int: "a whole number", dict: "a table"}
-            self.refuse(key, "{key}: expected {expected}, found {found!r}", key=key, expected=names[kind], found=value)
+        if not isinstance(value, kind) or (kind is not bool and isinstance(value, bool)):
+            kinds = kind if isinstance(kind, tuple) else (kind,)
+            expected = " or ".join(_KINDS[kind] for kind in kinds)
+            self.refuse(key, "{key}: expected {expected}, found {found!r}", key=key, expected=expected, found=value)
             return default
-        if kind is str and "\0" in value:
+        if isinstance(value, str) and "\0" in value:
             self.refuse(key, "{key}: holds a null character, which no name may hold", key=key)
             return default
         return value

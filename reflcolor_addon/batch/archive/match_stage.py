@@ -39,6 +39,10 @@ class Matched:
         For items that could not be matched here the photos that look best.
     said : dict of (str, str) to bool
         What a person says of an item and the path of a photo.
+    earlier : dict of str to dict of str to list of dict
+        As ``pairs``, of pairs that an earlier run has matched and this one did not need; nothing depends on these.
+    effects : dict of str to list of dict
+        For items what became of a person's word where it takes colors away or gives none: ``photo``, and ``told``.
     decided : bool
         Whether all of it was found.
     """
@@ -49,6 +53,8 @@ class Matched:
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     by_likeness: dict[str, list[str]] = field(default_factory=dict)
     said: dict[tuple[str, str], bool] = field(default_factory=dict)
+    earlier: dict[str, dict[str, list]] = field(default_factory=dict)
+    effects: dict[str, list[dict]] = field(default_factory=lambda: defaultdict(list))
     decided: bool = False
 
     def photos(self, item):
@@ -56,7 +62,8 @@ class Matched:
         if item.name in self.by_likeness:
             return self.by_likeness[item.name]
         found = self.pairs.get(item.name, {})
-        shown = [path for path in found if item.name in self.verdicts.get(path, Verdict()).shown]
+        # In the order of the manifest, whatever was found first.
+        shown = [path for path in map(str, item.plan.photos) if item.name in self.verdicts.get(path, Verdict()).shown]
         if item.plan.settings.guess:
             # Guesses take their colors from photos that look like the scan, too.
             shown += [path for path in found if path not in self.verdicts]
@@ -113,6 +120,7 @@ def match_items(context, items, own, looks, known_pairs, matched):
         rounds.match(_by_themselves(looks.by_item()))
         rounds.recall_others()
     rounds.decide()
+    rounds.recall_earlier()
 
 
 def _by_themselves(pairs):
@@ -134,6 +142,7 @@ class _Rounds:
         self._found, matched.said, matched.hashes = matched, self._said, looks.hashes
         # What is wrong is told when the item is colorized.
         self._found.by_likeness |= {name: list(looks.photos) for name in looks.unseen}
+        self._table = context.manifest.pairs and context.manifest.pairs.name
         self._number = 0
         # Made once: what is compared is kept by them.
         self._claims, self._compared = {}, {}
@@ -151,12 +160,20 @@ class _Rounds:
     def recall_others(self):
         """Take what other parts of the batch have found for their items."""
         for name in self._items.keys() - self._own:
-            known = self._recalled(self._key(self._items[name]))
-            self._found.pairs[name] |= {
-                path: known[key]
-                for path, key in self._looks.hashes.items()
-                if key in known and self._may_show(name, path)
-            }
+            self._found.pairs[name] |= self._matched_before(name)
+
+    def recall_earlier(self):
+        """Note what earlier runs have found and this one did not need."""
+        for name in self._items:
+            found = self._found.pairs[name]
+            before = self._matched_before(name).items()
+            self._found.earlier[name] = {path: pairs for path, pairs in before if path not in found}
+
+    def _matched_before(self, name):
+        """What was found for an item at any time, of each photo by itself."""
+        known = self._recalled(self._key(self._items[name]))
+        hashes = self._looks.hashes.items()
+        return {path: known[key] for path, key in hashes if key in known and self._may_show(name, path)}
 
     def match(self, pairs):
         """Match pairs that are not known yet, and keep what was found.
@@ -327,14 +344,20 @@ class _Rounds:
             if warning is not None and self._own.intersection(found.shown + found.refused):
                 self._context.session.warnings.append(warning)
         for (name, path), shows in self._said.items():
-            pairs = self._found.pairs[name].get(path, ())
-            if shows and name in self._own and pairs and not any(pair["verified"] for pair in pairs):
-                self._context.session.warnings.append(
-                    Message(
-                        "{photo}: shows {scan}, as {file} says, but is not verified there, so it gives no colors; four "
-                        "to six pairs picked by hand place it (hand = ... below its [[scan]] in the manifest)",
-                        photo=self._looks.photos[path],
-                        scan=name,
-                        file=self._context.manifest.pairs.name,
+            photo, file, pairs = self._looks.photos[path], self._table, self._found.pairs[name].get(path, ())
+            if not shows:
+                told = Message("gives no colors, as {file} says", file=file)
+                self._found.effects[name].append({"photo": photo, "told": str(told)})
+            elif pairs and not any(pair["verified"] for pair in pairs):
+                told = Message("is not verified, so it gives no colors, although {file} says yes", file=file)
+                self._found.effects[name].append({"photo": photo, "told": str(told)})
+                if name in self._own:
+                    self._context.session.warnings.append(
+                        Message(
+                            "{photo}: shows {scan}, as {file} says, but is not verified there, so it gives no colors; "
+                            "four to six pairs picked by hand place it (hand = ... below its [[scan]] in the manifest)",
+                            photo=photo,
+                            scan=name,
+                            file=file,
+                        )
                     )
-                )

@@ -69,6 +69,8 @@ class State:
         The same, with what was found while it was colorized; see `worker`.
     refused : set of str
         The paths of photos that do not show it, as a person says.
+    effects : list of dict
+        See `match_stage.Matched`.
     warnings : list of str
         What its work had to say.
     same_as : str
@@ -82,6 +84,7 @@ class State:
     matched: list[dict] = field(default_factory=list)
     photos: list[dict] = field(default_factory=list)
     refused: set[str] = field(default_factory=set)
+    effects: list[dict] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     same_as: str = ""
 

@@ -17,14 +17,14 @@ CONTRADICTION = "contradiction"
 _SHOWS = ("", YES, NO, UNTESTED, UNTRIED, CONTRADICTION)
 _MOST_BYTES = 1 << 28
 # More names that a batch does not have are only counted.
-_MOST_NAMES = 5
+_MOST_NAMES = 20
 
 
 def _raise(error):
     raise error
 
 
-def read_pairs(path, refuse=_raise):
+def read_pairs(path, refuse=_raise, lines=None):
     """Read what a person knows of pairs.
 
     Parameters
@@ -35,6 +35,8 @@ def read_pairs(path, refuse=_raise):
         and evidence of less than 1 is what a batch found, and nobody's word.
     refuse : callable, optional
         Given a UsageError for each thing that is wrong; by default the first one is raised.
+    lines : dict, optional
+        The line of each pair is put into it.
 
     Returns
     -------
@@ -53,9 +55,9 @@ def read_pairs(path, refuse=_raise):
     except UnicodeDecodeError:
         refuse(UsageError("{file}: is not UTF-8; save it as UTF-8", file=path))
         return {}
-    known, lines = {}, {}
+    known, lines = {}, {} if lines is None else lines
     for line, scan, photo, shows in _rows(text, path, refuse):
-        if lines.setdefault((scan, photo), (line, shows))[1] != shows:
+        if known.setdefault((scan, photo), shows) != shows:
             refuse(
                 UsageError(
                     "{file}: line {line}: says {shows} of {scan} and {photo}, but line {other} says {otherwise}; "
@@ -65,11 +67,11 @@ def read_pairs(path, refuse=_raise):
                     shows=YES if shows else NO,
                     scan=scan,
                     photo=photo,
-                    other=lines[scan, photo][0],
+                    other=lines[scan, photo],
                     otherwise=NO if shows else YES,
                 )
             )
-        known[scan, photo] = shows
+        lines.setdefault((scan, photo), line)
     return known
 
 
@@ -113,26 +115,29 @@ def _is_found(evidence, note):
         return False
 
 
-def unknown_names(path, known, scans, photos):
+def unknown_names(path, lines, scans, photos):
     """Yield a `Message` for names in a table of pairs that are of no scan or photo of the batch.
 
     Parameters
     ----------
     path : Path
         Of the table.
-    known : dict of (str, str) to bool
-        What it says.
-    scans, photos : collection of str
-        The names that the batch has.
+    lines : dict of (str, str) to int
+        The line of each pair.
+    scans, photos : dict of str to iterable of str
+        The names that the batch has, and other ways to write each of them.
     """
-    missing = [(name, Message("no scan of this batch"), scans) for name in dict.fromkeys(scan for scan, _ in known)] + [
-        (name, Message("no photo of this batch"), photos) for name in dict.fromkeys(photo for _, photo in known)
-    ]
-    missing = [(name, what, names) for name, what, names in missing if name not in names]
-    for name, what, names in missing[:_MOST_NAMES]:
+    missing = {}
+    for (scan, photo), line in lines.items():
+        if scan not in scans:
+            missing.setdefault(scan, (line, Message("no scan of this batch"), scans))
+        if photo not in photos:
+            missing.setdefault(photo, (line, Message("no photo of this batch"), photos))
+    for name, (line, what, names) in list(missing.items())[:_MOST_NAMES]:
         yield Message(
-            "{file}: {name!r} is {what}, so what is said of it has no effect{hint}",
+            "{file}: line {line}: {name!r} is {what}, so what is said of it has no effect{hint}",
             file=path,
+            line=line,
             name=name,
             what=what,
             hint=hint(name, names),

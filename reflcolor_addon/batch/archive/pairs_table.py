@@ -1,5 +1,7 @@
 """The table of pairs of a batch: all that were tried, and all that were not."""
 
+from collections import defaultdict
+
 from ...messages import Message
 from ...report.archive_entries import ITEMS
 from .options import COLOR, FAILED
@@ -36,10 +38,15 @@ def write_table(context, matched):
             # Fed back once more, the table says the same: what a person says stays, whatever was found.
             if pair is not None and said is not False:
                 shows, evidence, note = _said(pair, matched.verdicts.get(path), item.name, matched.decided)
-                rows.append((item.name, photo, YES if said else shows, evidence, note))
+                if said and not pair["verified"]:
+                    note = Message("{note}; yes as {file} says", note=note, file=manifest.pairs.name)
+                shows = YES if said else shows
+                rows.append((item.name, photo, shows, evidence, note))
             elif said is not None:
                 shows = YES if said else NO
                 rows.append((item.name, photo, shows, "", Message("as {file} says", file=manifest.pairs.name)))
+            elif before := _surest(matched.earlier.get(item.name, {}).get(path, ())):
+                rows.append((item.name, photo, *_found_earlier(before)))
             elif with_untried:
                 rows.append((item.name, photo, UNTRIED, "", _why_untried(context, item, path, matched)))
             else:
@@ -69,14 +76,25 @@ def _said(pair, verdict, name, decided):
     return shows, f"{pair['evidence']:.2f}", note
 
 
+def _found_earlier(pair):
+    """The same of a pair that an earlier run has matched: one that was verified decides nothing."""
+    note = Message("{note}; found in an earlier run, and not needed in this one", note=pair["note"])
+    if pair["verified"]:
+        note = Message("{note}; write yes to use it", note=note)
+    return "" if pair["verified"] else NO if pair["tested"] else UNTESTED, f"{pair['evidence']:.2f}", note
+
+
 def _best(found):
     """What was found for each photo, by its path; of several scans of an item the one that speaks most for it."""
-    best = {}
+    of_photo = defaultdict(list)
     for pair in found:
-        known = best.get(pair["path"])
-        if known is None or (pair["verified"], pair["evidence"]) > (known["verified"], known["evidence"]):
-            best[pair["path"]] = pair
-    return best
+        of_photo[pair["path"]].append(pair)
+    return {path: _surest(pairs) for path, pairs in of_photo.items()}
+
+
+def _surest(pairs):
+    """The pair that speaks most for a photo, the first of equal ones; None without any."""
+    return max(pairs, key=lambda pair: (pair["verified"], pair["evidence"]), default=None)
 
 
 def _why_untried(context, item, path, matched):

@@ -141,7 +141,8 @@ def _remember_scans(context):
     name_of = context.manifest.name_of
     scans = {item.name: [name_of(path) for path in item.plan.scans] for item in context.manifest.items}
     photos = [name_of(path) for path in context.manifest.photos]
-    context.folder.remember("", SCANS, {"scans": scans, "photos": photos})
+    same = {name_of(path): name_of(first) for path, first in context.same.photos.items()}
+    context.folder.remember("", SCANS, {"scans": scans, "photos": photos, "same_photos": same})
 
 
 def _correct_items(context, states):

@@ -135,6 +135,15 @@ def _delete_outdated(context, piece, written):
                 files=", ".join(Path(path).name for path in deleted),
             )
         )
+    if changed := [path for path in outdated if path not in deleted and Path(path).exists()]:
+        context.session.warnings.append(
+            Message(
+                "{name}: no photo shows it for certain any more, but what was changed since it was written stays: "
+                "{files}",
+                name=piece.state.item.name,
+                files=", ".join(Path(path).name for path in changed),
+            )
+        )
 
 
 def _is_known(context, stage, state, key, since=None):
@@ -171,7 +180,7 @@ def remember_item(context, state):
     """Record the outcome of an item, for the report of the whole batch; if that fails, the others go on."""
     photos = [pair | {"photo": context.manifest.name_of(pair["path"])} for pair in state.photos]
     document = {"outcome": state.outcome, "error": state.error, "left_out": state.left_out}
-    document |= {"photos": photos, "same_as": state.same_as, "warnings": state.warnings}
+    document |= {"photos": photos, "same_as": state.same_as, "warnings": state.warnings, "effects": state.effects}
     try:
         context.folder.remember(ITEMS, state.item.name, document)
     except OutputError as error:

@@ -11,6 +11,9 @@ CLEARLY = 1.5
 # A photo is placed where so much speaks for it, and another photo agrees or its evidence is so high. The test is made
 # for one try: with nine, the best of what chance gives lies 2.8 deviations above its mean, not 2, which asks for more.
 _PLACED, _SURE = 25.0, 1.15
+# With so much evidence, more than nearly all wrong photos have, a photo shows a scan whatever others show that overlap
+# it.
+_BEYOND_DOUBT = 2.0
 
 
 class Verdicts:
@@ -222,6 +225,8 @@ class Verdicts:
         looked = (other.looked, claim.looked) if other.looked and claim.looked else (0.0, 0.0)
         if not other.repeats and max(other.strength, looked[0]) > CLEARLY * max(claim.strength, looked[1]):
             return True
+        if claim.evidence >= _BEYOND_DOUBT:
+            return False
         backed = self._backing(other, claim)
         return backed > 0 and other.weight + backed >= CLEARLY * self._weights[claim]
 

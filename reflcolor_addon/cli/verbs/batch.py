@@ -75,8 +75,7 @@ def run(arguments, session):
     if manifest is not None:
         options = _options(arguments, manifest)
         check_manifest(manifest, session.blender, faults.append)
-        known = _known_pairs(manifest, faults.append)
-        _warn_of_names(manifest, known, session)
+        known = _known_pairs(manifest, session, faults.append)
         items = options.chosen(manifest.items)
         costs = check_files(manifest, items, unusable.append, decode=arguments.check, progress=session.progress)
     for fault in sorted((*faults, *unusable), key=_line_of):
@@ -130,17 +129,19 @@ def _options(arguments, manifest):
     )
 
 
-def _known_pairs(manifest, refuse):
-    """What a person knows of pairs of a scan and a photo."""
-    return {} if manifest.pairs is None else read_pairs(manifest.pairs, refuse)
-
-
-def _warn_of_names(manifest, known, session):
-    """Tell which names in the table of pairs are misspelled, or of what is not part of the batch any more."""
-    scans = {item.name: None for item in manifest.items}
+def _known_pairs(manifest, session, refuse):
+    """What a person knows of pairs of a scan and a photo; names that the batch does not have are warned of."""
+    if manifest.pairs is None or not manifest.pairs.is_file():  # then that was told
+        return {}
+    lines, name_of = {}, manifest.name_of
+    known = read_pairs(manifest.pairs, refuse, lines)
+    scans = {
+        item.name: [way for path in item.plan.scans for way in (name_of(path), path.name, path.stem)]
+        for item in manifest.items
+    }
     paths = [*manifest.photos, *(path for item in manifest.items for path in item.plan.photos)]
-    photos = dict.fromkeys(map(manifest.name_of, dict.fromkeys(paths)))
-    session.warnings += unknown_names(manifest.pairs, known, scans, photos)
+    session.warnings += unknown_names(manifest.pairs, lines, scans, dict.fromkeys(map(name_of, paths), ()))
+    return known
 
 
 def _line_of(fault):

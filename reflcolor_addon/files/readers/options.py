@@ -108,7 +108,7 @@ def with_option(options, name, value):
         value = tuple(map(float, numbers))
     elif type(value) is not kinds[name]:
         raise UsageError(
-            "{name}: expected {expected}, found {found}", name=name, expected=_KINDS[kinds[name]], found=str(value)
+            "{name}: expected {expected}, found {found}", name=name, expected=_KINDS[kinds[name]], found=repr(value)
         )
     return replace(options, **{name: value})
 
