@@ -207,7 +207,9 @@ def test_what_was_colored_earlier_is_deleted_where_no_photo_shows_the_scan_any_m
     (archive / "batch.toml").write_text(HEAD + 'scans = "hall_[01].ptx"\nphotos = "a.png"\n', encoding="utf-8")
     status, out, err = batch("--resume")
     assert status == 0 and "2 without a certain photo" in out
-    assert "hall_1: no photo shows it for certain any more, but what was changed" in err and "stays: hall_1.png" in err
+    assert (
+        "hall_1: no photo shows it for certain any more, but what was changed" in err and "stays: hall_1.png\n" in err
+    )
     assert "hall_0: deleted what an earlier run had colored" in out
     left = {
         path.relative_to(results).as_posix() for path in results.rglob("hall_[01]*") if "batch-state" not in path.parts

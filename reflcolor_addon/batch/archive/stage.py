@@ -8,7 +8,7 @@ from pathlib import Path
 from ...errors import OutputError, ReflcolorError
 from ...failures import line_of
 from ...messages import Message
-from ...report.archive_entries import ITEMS
+from ...report.archive_entries import ITEMS, REPORTS
 from .options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, State
 from .passing import may_pass
 
@@ -135,13 +135,15 @@ def _delete_outdated(context, piece, written):
                 files=", ".join(Path(path).name for path in deleted),
             )
         )
-    if changed := [path for path in outdated if path not in deleted and Path(path).exists()]:
+    # The preview was written anew.
+    kept = (Path(path) for path in outdated if path not in deleted)
+    if changed := [path.name for path in kept if path.parent.name != REPORTS and path.exists()]:
         context.session.warnings.append(
             Message(
                 "{name}: no photo shows it for certain any more, but what was changed since it was written stays: "
                 "{files}",
                 name=piece.state.item.name,
-                files=", ".join(Path(path).name for path in changed),
+                files=", ".join(changed),
             )
         )
 
