@@ -1,15 +1,16 @@
 """Faults injected into whole batches: python -m benchmarks.batch_faults [--moments N] [--folder DIR] [FAULT ...]
 
     kill      kill -9 on the parent and on a child, in turn, at random moments; the batch is run again with --resume
+    scenes    the same of a batch that writes .blend and renders, in the bpy of the environment, after make build
     often     the same at so many moments of one batch of 60 scans and 12 photos, made as by benchmarks.archive
     full      an output folder on a disk (a small tmpfs) that fills up under the batch, and is emptied afterwards
     gone      an output folder that vanishes under the batch, and comes back
     together  two batches on the same folder at once
 
 After each of them the outputs must equal those of a batch that nothing happened to, byte for byte (of a report all but
-its times), and nothing that was finished may be done again. A fault that was not survived is printed and makes the
-command end with 1. With --folder it goes on at the moment where it was interrupted. Linux only; `full` needs the right
-to mount.
+its times, of a .blend every array), and nothing that was finished may be done again. A fault that was not survived is
+printed and makes the command end with 1. With --folder it goes on at the moment where it was interrupted. Linux only;
+`full` needs the right to mount.
 """
 
 import argparse
@@ -36,13 +37,14 @@ from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
 
 _WITH_SEEDS, _WITH_PHOTOS, _PHOTOS = 6, 3, 3
+_SCENES, _FOR_BLENDER = 3, 'write = ["blend"]'
 _COLORED, _STATE = "colored", "batch-state"
 _DISK_KB = 1200
 
 
 def main():
     """Inject the faults that are asked for and print what came of each."""
-    faults = {"kill": _kill, "often": _often, "full": _full, "gone": _gone, "together": _together}
+    faults = {"kill": _kill, "scenes": _scenes, "often": _often, "full": _full, "gone": _gone, "together": _together}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("faults", metavar="FAULT", nargs="*", help=", ".join(faults))
     parser.add_argument("--moments", type=int, default=20, help="how often it is killed (default %(default)s)")
@@ -70,17 +72,33 @@ def _make(folder):
     lines = ['format = "reflcolor-batch"', "version = 1", f'output = "{_COLORED}"', 'write = ["png", "ply"]']
     lines += ['photos = "photo_*.png"', "settings = { slic_segments = 60 }"]
     rng = np.random.default_rng(3)
-    for number in range(_WITH_SEEDS + _WITH_PHOTOS):
-        scan = Room(number).scan(40, 65, 1.2)
-        write_ptx(scan, folder / f"scan_{number}.ptx")
+    for number in range(_WITH_SEEDS):
+        lines += _with_seeds(folder, number, rng)
+    for number in range(_WITH_SEEDS, _WITH_SEEDS + _WITH_PHOTOS):
+        write_ptx(Room(number).scan(40, 65, 1.2), folder / f"scan_{number}.ptx")
         lines += ["[[scan]]", f'file = "scan_{number}.ptx"']
-        if number < _WITH_SEEDS:
-            rows, columns = (rng.integers(size, size=30) for size in scan.shape)
-            Seeds(rows, columns, scan.color[rows, columns]).save(folder / f"scan_{number}.seeds.json")
-            lines.append(f'seeds = "scan_{number}.seeds.json"')
     for number in range(_PHOTOS):
         write_png(folder / f"photo_{number}.png", Room(_WITH_SEEDS + number).photo(number, 120, 90))
     (folder / "batch.toml").write_text("\n".join(lines) + "\n")
+
+
+def _make_scenes(folder):
+    """Three scans with seeds, of which Blender makes scenes and pictures."""
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = ['format = "reflcolor-batch"', "version = 1", f'output = "{_COLORED}"', _FOR_BLENDER, "render = true"]
+    rng = np.random.default_rng(3)
+    for number in range(_SCENES):
+        lines += _with_seeds(folder, number, rng)
+    (folder / "batch.toml").write_text("\n".join(lines) + "\n")
+
+
+def _with_seeds(folder, number, rng):
+    """Write a small scan and its seeds; return their lines of the manifest."""
+    scan = Room(number).scan(40, 65, 1.2)
+    write_ptx(scan, folder / f"scan_{number}.ptx")
+    rows, columns = (rng.integers(size, size=30) for size in scan.shape)
+    Seeds(rows, columns, scan.color[rows, columns]).save(folder / f"scan_{number}.seeds.json")
+    return ["[[scan]]", f'file = "scan_{number}.ptx"', f'seeds = "scan_{number}.seeds.json"']
 
 
 def _undisturbed(folder, made=_make, name="undisturbed"):
@@ -99,11 +117,11 @@ def _undisturbed(folder, made=_make, name="undisturbed"):
     return float((plain / "seconds").read_text()), _outputs(plain / _COLORED)
 
 
-def _fresh(folder):
+def _fresh(folder, name="undisturbed"):
     """The archive without any output."""
-    own = folder / "own"
+    own = folder / f"own {name}"
     if not own.exists():
-        shutil.copytree(folder / "undisturbed", own, ignore=shutil.ignore_patterns(_COLORED, "seconds"))
+        shutil.copytree(folder / name, own, ignore=shutil.ignore_patterns(_COLORED, "seconds"))
     _emptied(own / _COLORED)
     return own
 
@@ -115,9 +133,12 @@ def _emptied(colored):
 
 
 def _started(own, *options):
-    line = [sys.executable, "-m", "reflcolor_addon", "batch", "batch.toml", "--jobs", "2", "--keep-going", *options]
+    command = [sys.executable, "-m", "reflcolor_addon"]
+    if _FOR_BLENDER in (own / "batch.toml").read_text():
+        blender = ROOT / "tools" / "blender_command.py"
+        command = [sys.executable, blender, "--resources", own.parent / "blender", "--"]
     return subprocess.Popen(
-        line,
+        [*command, "batch", "batch.toml", "--jobs", "2", "--keep-going", *options],
         cwd=own,
         env=os.environ | {"PYTHONPATH": str(ROOT)},
         stdout=subprocess.PIPE,
@@ -142,14 +163,31 @@ def _outputs(colored):
         data = path.read_bytes()
         if path.suffix == ".json":
             data = {key: own for key, own in json.loads(data).items() if key not in ("times_s", "created")}
+            # The bytes of a .blend differ from run to run.
+            data["outputs"] = [own for own in data.get("outputs", ()) if not own["path"].endswith(".blend")]
         found["/".join(parts)] = data
+    scenes = sorted(colored.rglob("*.blend"))
+    for path, held in _held(scenes).items() if scenes else ():
+        found[path.relative_to(colored).as_posix()] = held
     return found
 
 
+def _held(scenes):
+    """What .blend files hold, see benchmarks.blend_contents."""
+    line = [sys.executable, "-m", "benchmarks.blend_contents", *scenes]
+    done = subprocess.run(line, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    return {Path(path): held for path, held in json.loads(done.stdout.splitlines()[-1]).items()}
+
+
 def _finished(colored):
-    """When each thing that is remembered as done was written: of scans, and of photos matched with scans."""
+    """When each thing that is remembered was done: of scans, and of photos matched with scans."""
     kinds = (colored / _STATE / kind for kind in ("done", "matched"))
-    return {path: path.stat().st_mtime_ns for kind in kinds for path in kind.glob("*.json")}
+    # What a scan was colored to is noted again when its picture is there, but was not done again then.
+    return {
+        path: json.loads(path.read_bytes()).get("ended", path.stat().st_mtime_ns)
+        for kind in kinds
+        for path in kind.glob("*.json")
+    }
 
 
 def _faults(own, known, before, what):
@@ -173,14 +211,25 @@ def _children(pid):
 
 
 def _kill(folder, whole, known, moments):
-    kept = folder / "kills.json"
+    yield from _killed(folder, whole, known, moments, "undisturbed", _WITH_SEEDS + _WITH_PHOTOS * (1 + _PHOTOS))
+
+
+def _scenes(folder, _whole, _known, moments):
+    whole, known = _undisturbed(folder, _make_scenes, "scenes")
+    # Each is colorized and rendered.
+    yield from _killed(folder, whole, known, moments, "scenes", 2 * _SCENES)
+
+
+def _killed(folder, whole, known, moments, name, things):
+    """Kill a batch in which so many things are done, at random moments."""
+    kept = folder / f"kills of {name}.json"
     told = json.loads(kept.read_text()) if kept.is_file() else []
     for moment in range(len(told), moments):
-        chance, own = random.Random(moment), _fresh(folder)
+        chance, own = random.Random(moment), _fresh(folder, name)
         what = "child" if moment % 2 else "parent"
         process = _started(own)
         # A busy machine is slow: the moment is told by what is finished, and a little more.
-        count = chance.randrange(_WITH_SEEDS + _WITH_PHOTOS * (1 + _PHOTOS))
+        count = chance.randrange(things)
         while process.poll() is None and len(_finished(own / _COLORED)) < count:
             time.sleep(0.01)
         time.sleep(chance.uniform(0, 0.5))

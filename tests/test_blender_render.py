@@ -125,6 +125,18 @@ def test_colors_of_the_archive_look_are_exactly_those_of_the_scan(startup_scan, 
     assert [200, 120, 40] in values[np.argsort(counts)[-2:]].tolist()
 
 
+def test_a_rendered_picture_has_the_same_bytes_each_time(startup_scan, tmp_path):
+    render = importlib.import_module(f"{EXTENSION}.operators.scene.render").render
+    startup_scan.ops.reflcolor.set_up_render()
+    settings = startup_scan.context.scene.render
+    settings.resolution_percentage, settings.filepath = 5, "kept"
+    for name in ("one.png", "other.png"):
+        render(startup_scan.context, tmp_path / name)
+    assert (tmp_path / "one.png").read_bytes() == (tmp_path / "other.png").read_bytes()
+    assert b"tEXt" not in (tmp_path / "one.png").read_bytes() and settings.filepath == "kept"
+    assert cv2.imread(str(tmp_path / "one.png")).std() > 0
+
+
 # The surface that pictures show
 
 

@@ -10,6 +10,7 @@ import pytest
 from reflcolor_addon.errors import ImageError, OutputError
 from reflcolor_addon.files.exr import read_exr_channels
 from reflcolor_addon.files.images import eight_bits, read_image, read_measured, write_png
+from reflcolor_addon.files.png_text import without_text
 
 RGB = np.random.default_rng(2).integers(0, 256, (6, 9, 3), np.uint8)
 
@@ -292,3 +293,17 @@ def test_a_png_that_cannot_be_written_leaves_nothing_and_is_told(tmp_path):
             write_png(path, RGB)
         assert "\n" not in str(caught.value)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_png_without_its_texts_has_the_same_pixels(tmp_path):
+    rgb = np.random.default_rng(0).integers(0, 256, (8, 9, 3)).astype(np.uint8)
+    write_png(tmp_path / "a.png", rgb)
+    plain = (tmp_path / "a.png").read_bytes()
+    texts = b""
+    for kind, data in ((b"tEXt", b"Date\0today"), (b"tIME", b"1234567")):
+        texts += struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    told = plain[:33] + texts + plain[33:]
+    (tmp_path / "b.png").write_bytes(told)
+    assert without_text(told) == plain == without_text(plain)
+    assert without_text(plain[:-20]) == plain[:-20] and without_text(plain[:10]) == plain[:10]
+    assert np.array_equal(read_image(tmp_path / "b.png"), rgb)

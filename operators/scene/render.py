@@ -1,10 +1,12 @@
 """A picture of scans and of nothing else: camera, look and render."""
 
 import math
+from pathlib import Path
 
 import bpy
 from mathutils import Vector
 
+from ...reflcolor_addon.files.png_text import without_text
 from ...reflcolor_addon.view.framing import camera_in_region, picture_size
 from ...reflcolor_addon.view.picture import BACKGROUND, LIGHT_FROM
 from .collections import PICTURE, own_collection
@@ -119,13 +121,15 @@ def look_through_camera(context):
 
 
 def render(context, path):
-    """Render the scene to a PNG file."""
+    """Render the scene to a PNG file, the same bytes each time."""
     scene = context.scene
     kept, scene.render.filepath = scene.render.filepath, str(path)
     try:
         bpy.ops.render.render(write_still=True)
     finally:
         scene.render.filepath = kept
+    # Blender and Cycles write dates and times into it.
+    Path(path).write_bytes(without_text(Path(path).read_bytes()))
 
 
 def _add(context, name, data):
