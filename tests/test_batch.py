@@ -87,7 +87,7 @@ def test_check_alone_touches_nothing(archive, batch):
     status, out, _ = batch("--check")
     assert status == 0 and "scans: 3" in out and "memory" in out
     assert out.splitlines()[-1] == "batch.toml: nothing wrong was found"
-    assert "takes no time" not in out and "takes no time" in batch("--check", "--resume")[1]
+    assert "earlier run" not in out and "earlier run" in batch("--check", "--resume")[1]
     assert not (archive / "colored").exists()
 
 
@@ -139,7 +139,7 @@ def test_what_is_there_twice_is_worked_on_once_and_told(archive, batch):
     assert status == 0
     assert "a (copy).png: the same photo as a.png, so it is left out\n" in out
     assert "hall_0.ptx: the same scan as b.ptx\n" in out
-    assert "b: the photo tried does not show it for certain (1 of 1 to color)" in out and "1 the same as another" in out
+    assert "b: the photo tried does not show it for certain (scan 1 of 1)" in out and "1 the same as another" in out
     with (archive / "colored" / "pairs.csv").open(encoding="utf-8", newline="") as file:
         notes = {
             (row["scan"], row["photo"]): row["note"] for row in csv.DictReader(file) if row["shows"] == "not tried"

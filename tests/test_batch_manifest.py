@@ -206,16 +206,24 @@ def test_what_cannot_be_worked_on(folder, text, expected):
     [
         ('scans = "hal_0.ptx"\n', "hall_0.ptx"),
         ('scans = "hall_0.ptx"\nphotos = "a.png"\n', "photos/a.png"),
-        ('scans = "hall_0.ptx"\nphotos = "photos/A*.PNG"\n', "photos/a.png"),
         ('[[scan]]\nfile = "hall_0.ptx"\nseeds = "seeds/{scan}.seeds.json"\n', "hall_0.seeds.json"),
-        ('scans = "hall_0.ptx"\npairs = "hall_0.seed.json"\n', "hall_0.seeds.json"),
+        ('scans = "hall_0.ptx"\npairs = "Mine.csv"\n', "tables/mine.csv"),
     ],
 )
 def test_a_file_that_does_not_exist_is_told_with_one_that_may_be_meant(folder, text, meant):
+    for name in ("tables/mine.csv", "hidden/batch-state/done", "hidden/hall_3.ptx", "hidden/a_.png"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).touch()
     _, faults = read(folder, HEAD + text)
     assert any(f"did you mean {meant}?" in fault for fault in faults), faults
-    _, faults = read(folder, HEAD + 'scans = "*.laz"\n')
-    assert faults[0] == "line 4: scan '*.laz': there is no such file"
+    # Neither a file of another kind, nor one with other digits, nor results of a batch; of a pattern only its capitals.
+    for names in ("*.laz", "hall_9.ptx", "hall_3.ptx"):
+        _, faults = read(folder, HEAD + f'scans = "{names}"\n')
+        assert faults == [f"line 4: scan '{names}': there is no such file"]
+    _, faults = read(folder, HEAD + 'scans = "hall_0.ptx"\nphotos = "hall_1.jpg"\n')
+    assert faults == ["line 5: photo 'hall_1.jpg': there is no such file"]
+    _, faults = read(folder, HEAD + 'scans = "hall_0.ptx"\nphotos = "photos/A*.PNG"\n')
+    assert faults == ["line 5: photo 'photos/A*.PNG': there is no such file; capitals count: there is photos/a.png"]
 
 
 def test_what_people_write_by_mistake_is_told_with_what_to_write(folder):
@@ -223,17 +231,25 @@ def test_what_people_write_by_mistake_is_told_with_what_to_write(folder):
         return [fault.partition(": ")[2] for fault in read(folder, HEAD + text)[1]]
 
     scan = '[[scan]]\nfile = "hall_0.ptx"\n'
-    assert told(scan + 'photos = "photos"\n') == ["photo 'photos': is a folder; photos/* means its files"]
+    assert told(scan + 'photos = "photos"\n') == ["photo 'photos': is a folder; write \"photos/*\""]
+    assert told(scan + 'photos = ""\n') == ["photo '': there is no such file"]
+    assert told(scan + f'hand = "{"h" * 300}"\nphotos = "photos/a.png"\n')[0].startswith("hand 'hhh")
     # What else is wrong with a scan that does not exist is told, too, and what follows from an error is not.
-    assert told('[[scan]]\nfile = "hal_0.ptx"\nphotos = "photos/c.png"\nskip = "yes"\nsettings = { alpha = -1 }\n')[
-        :3
-    ] == [
+    other = 'photos = "photos/c.png"\nskip = "yes"\nsettings = { alpha = -1 }\nseeds = "a.json"\n'
+    assert told('[[scan]]\nfile = "hal_0.ptx"\n' + other) == [
         "scan 'hal_0.ptx': there is no such file; did you mean hall_0.ptx?",
         "skip: expected true or false, found 'yes'",
         "photo 'photos/c.png': there is no such file",
+        f"seeds 'a.json': there is no file {folder / 'a.json'}",
+        "alpha: expected a number from 0.1 to 64, found -1",
     ]
     assert told(scan + 'photos = "photos/c.png"\n') == ["photo 'photos/c.png': there is no such file"]
-    assert told(scan + 'photos = "photos/a.png"\nscan = 1\n') == []
+    assert read(folder, HEAD + scan + 'photos = "photos/a.png"\nscan = 1\n')[0].items[0].plan.wanted == "1"
+    assert told(scan + 'photos = "photos/a.png"\nscan = 0\n') == ["scan 0: expected a name, or a number from 1"]
+    assert told('photos = "photos/a.png"\n' + scan + "photos = []\n") == [
+        f"{folder / 'hall_0.ptx'}: has neither seeds nor photos; give one of them"
+    ]
+    assert told(scan + f'photos = "photos/a.png"\nscan = 0x{"f" * 5000}\n') == ["a number is too large"]
     assert told(scan + 'photos = "photos/a.png"\npairs = "a.csv"\n') == [
         "pairs: is said of the whole batch; write it at the top"
     ]
@@ -242,7 +258,7 @@ def test_what_people_write_by_mistake_is_told_with_what_to_write(folder):
     ]
     assert "found '2'" in told(scan + 'photos = "photos/a.png"\nreading = { step = "2" }\n')[0]
     named = "".join(f'[[scan]]\nfile = "hall_{number}.ptx"\nname = "Halle"\n' for number in range(2))
-    assert told('photos = "photos/a.png"\n' + named) == ["name 'Halle': another scan has the same; give each its own"]
+    assert told('photos = "photos/a.png"\n' + named) == ["name 'Halle': line 7 has it, too; give each its own"]
 
 
 @pytest.mark.parametrize(
@@ -253,6 +269,8 @@ def test_what_people_write_by_mistake_is_told_with_what_to_write(folder):
         ("settings = { tone = 1,2 }\n", "a number needs a point, not a comma"),
         ("preset = Natural\n", "a text needs quotes"),
         ('scans = "c:\\users\\a.ptx"\n', "write / between folders"),
+        ('scans = "a.ptx\n', "a closing quote is missing"),
+        ("render = True # as c:\\a\n", "true and false small letters"),
     ],
 )
 def test_what_is_no_toml_is_told_with_what_to_write(folder, text, way):

@@ -108,7 +108,7 @@ def test_a_scan_without_colors_has_its_reflectance_and_the_photos_that_were_trie
     # What is tried later is told, too, although nothing else is to be done for the scan.
     write_png(archive / "c.png", np.random.default_rng(2).integers(0, 256, (40, 60, 3)).astype(np.uint8))
     status, out, _ = batch("--resume")
-    assert status == 0 and "wrote colored/pairs.csv" in out and "to color" not in out
+    assert status == 0 and "wrote colored/pairs.csv" in out and "(scan" not in out
     lines = log.read_text(encoding="utf-8").splitlines()
     assert sorted(line[:6] for line in lines[:3]) == ["a.png:", "b.png:", "c.png:"] and "(evidence " in lines[0]
 

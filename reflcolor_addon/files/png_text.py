@@ -13,7 +13,8 @@ def without_text(png):
     kept, at = [png[:8]], 8
     while at + 12 <= len(png):
         length, kind = struct.unpack_from(">I4s", png, at)
-        if kind not in _TELLING:
-            kept.append(png[at : at + 12 + length])
-        at += 12 + length
+        end = at + 12 + length
+        if kind not in _TELLING or end > len(png):
+            kept.append(png[at:end])
+        at = end
     return b"".join((*kept, png[at:]))

@@ -33,6 +33,8 @@ COLUMNS = (
 """What the table of figures tells of a scan; ``photos`` counts those that were tried, ``verified_photos`` those of them
 that color it."""
 _LARGEST_ITEM = 1 << 24
+# More of what a person's word leads to is told among the details.
+_MOST_TOLD = 3
 _PAIR = {"scan", "photo", "note", "verified", "evidence"}
 
 
@@ -133,8 +135,8 @@ def photos_of(root):
     for scan, item in _items(root).items():
         for pair in _pairs(item):
             found.setdefault(pair["photo"], []).append(pair)
-        for effect in _effects(item):
-            told[effect["photo"]].append(f"{scan}: {effect['told']}")
+        for photo, effect in _effects(item):
+            told[photo].append(f"{scan}: {effect}")
     small = small if isinstance(small, dict) else {}
     places = {name: root / STATE / LOOKS / Path(str(file)).name for name, file in small.items()}
     return [_photo(name, found[name], places.get(name), told[name]) for name in sorted(found, key=str.casefold)]
@@ -152,9 +154,15 @@ def _photo(name, pairs, small, told):
         "photo": name,
         "small": small,
         "shows": sorted({pair["scan"] for pair in shown}, key=str.casefold),
-        "evidence": "" if best is None else f"{best['evidence']:.2f}",
+        "evidence": "" if best is None else evidence_text(best),
         "note": "; ".join(doubts),
     }
+
+
+def evidence_text(pair):
+    """The evidence of a pair as it is written: less than 1, which is enough, for what is not verified."""
+    evidence = round(pair["evidence"], 2)
+    return f"{evidence if pair['verified'] else min(evidence, 0.99):.2f}"
 
 
 def _pictured(root, name):
@@ -177,7 +185,7 @@ def _add_tried(entries, pairs):
         )
         if label in entries:
             entries[label]["photos"] = len(own)
-            lines = (f"{pair['photo']}: {pair['note']} (evidence {pair['evidence']:.2f})" for pair in own)
+            lines = (f"{pair['photo']}: {pair['note']} (evidence {evidence_text(pair)})" for pair in own)
             entries[label]["tried"] = "<p>Photos tried; evidence of 1 or more is enough</p>" + _list(lines)
             _add_doubts(entries[label], [f"{pair['photo']}: {pair['doubt']}" for pair in own if pair.get("doubt")])
 
@@ -193,15 +201,19 @@ def _add_doubts(entry, doubts):
 def _effects(item):
     """What became of a person's word on photos of an item, as far as its record is whole."""
     found = item.get("effects")
-    return [told for told in found or [] if isinstance(told, dict) and told.keys() >= {"photo", "told"}]
+    found = found if isinstance(found, list) else []
+    whole = [effect for effect in found if isinstance(effect, dict) and effect.keys() >= {"photo", "told"}]
+    return [(str(effect["photo"]), str(effect["told"])) for effect in whole]
 
 
 def _add_effects(entries, name, effects):
     """Tell below a scan where a person's word takes its colors away, or gives it none."""
-    lines = [f"{effect['photo']}: {effect['told']}" for effect in effects]
+    lines = [f"{photo}: {told}" for photo, told in effects]
     for label in [label for label in entries if lines and (label == name or label.startswith(f"{name}+"))]:
-        entries[label]["note"] = "; ".join(filter(None, (*lines, entries[label]["note"])))
-        entries[label]["details"] += "<p>As you said</p>" + _list(lines)
+        more = [f"{len(lines) - _MOST_TOLD} more as the table of pairs says"] if len(lines) > _MOST_TOLD else []
+        entries[label]["note"] = "; ".join(filter(None, (*lines[:_MOST_TOLD], *more, entries[label]["note"])))
+        if more:
+            entries[label]["details"] += "<p>What the table of pairs changes</p>" + _list(lines)
 
 
 def _add_scans(entries, scans):

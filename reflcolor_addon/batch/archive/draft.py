@@ -7,8 +7,8 @@ from pathlib import Path
 from ...errors import ReflcolorError, ScanError
 from ...files.images import IMAGE_SUFFIXES, image_size
 from ...files.readers import SCAN_SUFFIXES, scan_pixels, text_cloud
-from ...report.archive_entries import STATE
 from ..paths import scan_files
+from .folder import files_below
 
 _HEAD = """\
 # Drafted by reflcolor manifest. Look it through, change what is wrong, then run:
@@ -82,7 +82,7 @@ def draft(folder, path):
     """
     if not folder.is_dir():
         raise ScanError("{folder}: is not a folder; name the one that holds the scans", folder=folder)
-    files = sorted(_files(folder), key=lambda file: file.as_posix())
+    files = sorted(filter(Path.is_file, files_below(folder)), key=lambda file: file.as_posix())
     scans = [file for file in files if file.name.lower().endswith(SCAN_SUFFIXES) and not _is_other_text(file)]
     if not scans:
         raise ScanError(
@@ -127,14 +127,6 @@ def draft(folder, path):
     seeds = {scan: _seeds_of(scan) for scan in scans}
     tables = [_ONE.format(file=named(scan), seeds=named(own)) for scan, own in seeds.items() if own is not None]
     return text + _ONE_SCAN.format(file=named(scans[0])) + (_SEEDS + "\n".join(tables) if tables else "")
-
-
-def _files(folder):
-    """All files below a folder, except hidden ones and those that batches have written."""
-    for root, folders, names in os.walk(folder):
-        here = Path(root)
-        folders[:] = sorted(name for name in folders if not name.startswith(".") and not (here / name / STATE).is_dir())
-        yield from (here / name for name in names if not name.startswith(".") and (here / name).is_file())
 
 
 def _is_other_text(file):

@@ -1,11 +1,15 @@
 """Finds files of a batch that are the same, so that nothing is worked on twice."""
 
+import hashlib
+from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ...messages import Message
 from ..paths import scan_files
 from ..plan import PLACEHOLDER
+
+_BEGINNING = 1 << 20
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +46,8 @@ def duplicates(manifest, hash_of):
     ----------
     manifest : Manifest
     hash_of : callable
-        Returns the hash of a file as text, an empty one where it cannot be read. Only files of one size are hashed.
+        Returns the hash of a file as text, an empty one where it cannot be read. Only files of one size that begin
+        alike are hashed.
     """
     photos = _same({path: [path] for path in manifest.photos}, hash_of)
     files = {path: scan_files(path) for item in manifest.items for path in item.plan.scans}
@@ -68,11 +73,29 @@ def _same(files, hash_of):
             by_size.setdefault(sizes, []).append(key)
     for keys in by_size.values():
         first = {}
-        for key in sorted(keys, key=_length) if len(keys) > 1 else ():
+        for key in _that_begin_alike(sorted(keys, key=_length), files):
             hashes = tuple(hash_of(path) for path in files[key])
             if all(hashes) and first.setdefault(hashes, key) != key:
                 same[key] = first[hashes]
     return same
+
+
+def _that_begin_alike(keys, files):
+    """Those of some keys whose files begin as those of another one; large files are not read whole for nothing."""
+    if len(keys) < 2:
+        return []
+    beginnings = {key: tuple(map(_beginning, files[key])) for key in keys}
+    count = Counter(beginnings.values())
+    return [key for key in keys if count[beginnings[key]] > 1 and None not in beginnings[key]]
+
+
+def _beginning(path):
+    """A hash of the first part of a file; None where it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            return hashlib.sha256(file.read(_BEGINNING)).digest()
+    except OSError:
+        return None
 
 
 def _length(path):

@@ -62,7 +62,7 @@ def estimate(manifest, options, costs):
         )
     )
     if options.resume:
-        lines.append(Message("that is for the whole batch; what an earlier run has done takes no time"))
+        lines.append(Message("this does not leave out what an earlier run has done"))
     if needs[0] > options.memory:
         lines.append(
             Message(

@@ -4,6 +4,7 @@ What it remembers lies in a folder of its own, which may be deleted; then everyt
 """
 
 import json
+import os
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +15,15 @@ from ...files.refusals import unwritable
 from ...report.archive_entries import ITEMS, PAIRS, REPORTS, STATE
 from ...report.report import REPORT_OPTION
 from ..plan import PREVIEW, REPORT, Output
+
+
+def files_below(folder):
+    """Yield all files below a folder, except hidden ones and those that batches have written, in the same order each
+    time."""
+    for root, folders, names in os.walk(folder):
+        here = Path(root)
+        folders[:] = sorted(name for name in folders if not name.startswith(".") and not (here / name / STATE).is_dir())
+        yield from (here / name for name in sorted(names) if not name.startswith("."))
 
 
 @dataclass(frozen=True)

@@ -3,44 +3,32 @@
 Its errors are collected and reported together, each with its line.
 """
 
-import re
-import tomllib
 from functools import cached_property
 from itertools import islice
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from ...errors import UsageError
-from ...files.gate import contents
 from ...files.images import IMAGE_SUFFIXES
-from ...messages import Message
+from ...files.readers import SCAN_SUFFIXES
 from ..paths import files_of_each
 from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, filled
-from .folder import BatchFolder
+from ..read import safe_label
+from .folder import BatchFolder, files_below
 from .manifest import Item, Manifest
 from .manifest_table import ManifestTable, last_value
 from .manifest_values import faces_of, reading_of, settings_of, texture_of
 from .meant import hint
 from .names import item_names
-from .toml_lines import TomlLines
+from .toml_text import read_toml
 
 FORMAT, VERSION = "reflcolor-batch", 1
-_MOST_BYTES = 64 << 20
-# Among how many files that is looked for which was probably meant by a name.
-_MOST_FILES = 20_000
+# Among how many files that is looked for which was probably meant by a name, and for how many names.
+_MOST_FILES, _MOST_HINTS = 20_000, 20
 _RESULTS = tuple(suffix.removeprefix(".") for suffix in RESULT_SUFFIXES)
 _OF_ALL = ("format", "version", "output", "scans", "photos", "pairs")
 _OF_EACH = ("write", "render", "texture", "faces", "preset", "settings", "reading", "seeds")
 _TABLES = ("settings", "reading")
 _OF_ONE = ("file", "name", "site", "scan", "photos", "hand", "skip")
-_ONCE = "a name may stand only once, for a key or a table; [[scan]] begins the table of one scan"
-_WAYS = {
-    "overwrite a value": _ONCE,
-    "twice": _ONCE,
-    "immutable namespace": _ONCE,
-    "Invalid value": "a text needs quotes, and a number a point, not a comma",
-    "after a key": "expected key = value; a number needs a point, not a comma",
-}
-"""What helps where a manifest is no TOML, by a part of what Python says."""
 _OF_SITE = (*_OF_EACH, "photos", "hand")
 
 
@@ -58,31 +46,8 @@ def load_manifest(path, refuse):
     Manifest or None
         None where the file cannot be read as TOML.
     """
-    try:
-        text = contents(path, "a manifest (.toml)", error=UsageError, most=_MOST_BYTES).decode("utf-8-sig")
-        document = tomllib.loads(text)
-    except UsageError as error:
-        refuse(error)
-        return None
-    except UnicodeDecodeError as error:
-        line = error.object.count(b"\n", 0, error.start) + 1
-        refuse(UsageError("{file}: line {line}: is not UTF-8; save it as UTF-8", file=path, line=line))
-        return None
-    except (ValueError, RecursionError) as error:  # not TOML, or numbers of thousands of digits
-        ways = [Message("; {way}", way=Message(way)) for word, way in _WAYS.items() if word in str(error)]
-        if "\\" in str(error) or "\\" in _line_of(text, str(error)):
-            ways = [Message("; write / between folders")]
-        way = ways[0] if ways else ""
-        refuse(UsageError("{file}: is not TOML: {reason}{way}", file=path, reason=str(error), way=way))
-        return None
-    return _Reader(path, document, TomlLines(text), refuse).manifest()
-
-
-def _line_of(text, reason):
-    """The line of a text that an error names; empty where it names none."""
-    found = re.search(r"at line (\d+)", reason)
-    lines = text.split("\n")
-    return lines[int(found[1]) - 1] if found and int(found[1]) <= len(lines) else ""
+    found = read_toml(path, refuse)
+    return None if found is None else _Reader(path, *found, refuse).manifest()
 
 
 class _Reader:
@@ -90,7 +55,7 @@ class _Reader:
         self._path, self._lines, self._refuse = path, lines, refuse
         self._whole = ManifestTable(document, (), self)
         self._folder = None
-        self._photo_lines, self._said = {}, set()
+        self._photo_lines, self._said, self._hints, self._misses_scan = {}, set(), 0, False
 
     def refuse_at(self, at, template, /, **values):
         error = UsageError("{file}: line {line}: " + template, file=self._path, line=self._lines.of(*at), **values)
@@ -117,10 +82,8 @@ class _Reader:
         pool = self._files(whole, "photos", "photo") or []
         pool = list(dict.fromkeys(path for _, path in pool))
         pairs = whole.get("pairs", str)
-        if pairs is not None and not (self._path.parent / pairs).is_file():
-            whole.refuse(
-                "pairs", "pairs: there is no file {path}{hint}", path=pairs, hint=hint(pairs, self._files_below)
-            )
+        if pairs is not None and not self._is("is_file", pairs):
+            whole.refuse("pairs", "pairs: there is no file {path}{hint}", path=pairs, hint=self._hint(pairs, (".csv",)))
         if pairs is not None and (self._path.parent / pairs).absolute() == self._folder.pairs.absolute():
             whole.refuse(
                 "pairs",
@@ -128,7 +91,7 @@ class _Reader:
                 path=pairs,
             )
         items = self._items(pool)
-        if not items:
+        if not items and not self._misses_scan:
             whole.refuse("scans" if "scans" in whole else None, "no scan is named; give scans = [...]")
         return Manifest(
             path=self._path,
@@ -147,10 +110,12 @@ class _Reader:
         found = []
         for place, text in texts:
             paths = self._matching(text)
-            if not paths and self._is_folder(text):
-                table.refuse(place, "{what} {text!r}: is a folder; {text}/* means its files", what=what, text=text)
+            self._misses_scan |= what == "scan" and not paths
+            if not paths and text and self._is("is_dir", text):
+                inside = f'"{text.rstrip("/")}/*"'
+                table.refuse(place, "{what} {text!r}: is a folder; write {inside}", what=what, text=text, inside=inside)
             elif not paths:
-                near = hint(text, self._files_below)
+                near = self._hint(text, SCAN_SUFFIXES if what == "scan" else IMAGE_SUFFIXES)
                 table.refuse(place, "{what} {text!r}: there is no such file{hint}", what=what, text=text, hint=near)
             if what == "photo":
                 for path in paths:
@@ -168,8 +133,13 @@ class _Reader:
     @cached_property
     def _files_below(self):
         """The names of files in the manifest's folder and below, as a manifest has them."""
-        found = islice(self._path.parent.rglob("*"), _MOST_FILES)
-        return sorted(self._seen(path).as_posix() for path in found if path.is_file())
+        return [self._seen(path).as_posix() for path in islice(files_below(self._path.parent), _MOST_FILES)]
+
+    def _hint(self, text, suffixes):
+        """What was probably meant by the name of a file of some kind; not for each of very many."""
+        self._hints += 1
+        known = self._files_below if text and self._hints <= _MOST_HINTS else ()
+        return hint(text, [name for name in known if name.lower().endswith(tuple(suffixes))])
 
     def _matching(self, text):
         """The files that a name or a pattern means."""
@@ -185,10 +155,11 @@ class _Reader:
         except (OSError, ValueError):  # a null character, an empty pattern
             return []
 
-    def _is_folder(self, text):
+    def _is(self, kind, text):
+        """Whether a name means something of a kind: ``is_file`` or ``is_dir``."""
         try:
-            return (self._path.parent / text).is_dir()
-        except (OSError, ValueError):
+            return getattr(self._path.parent / text, kind)()
+        except (OSError, ValueError):  # a name that is too long
             return False
 
     def _seen(self, path):
@@ -233,15 +204,25 @@ class _Reader:
         for chain in chains:
             table = next((table for table in reversed(chain) if "name" in table), None)
             name = None if table is None else table.get("name", str)
-            if name is not None and first.setdefault(name.casefold(), table) is not table:
-                table.refuse("name", "name {name!r}: another scan has the same; give each its own", name=name)
+            if name is None:
+                continue
+            other = first.setdefault(safe_label(name).casefold(), table)
+            if other is not table:
+                line = self._lines.of(*other.at, "name")
+                table.refuse(
+                    "name", "name {name!r}: line {other} has it, too; give each its own", name=name, other=line
+                )
 
     def _look_over(self, table):
         """Find what else is wrong with a table whose scan does not exist."""
         chain = [self._whole, table]
-        for key, kind in (("name", str), ("site", str), ("scan", (str, int)), ("hand", str), ("skip", bool)):
+        for key, kind in (("name", str), ("site", str), ("skip", bool)):
             table.get(key, kind)
-        self._files(table, "photos", "photo")
+        self._wanted([table])
+        names = [text for _, text in table.texts("file") or ()]
+        name, photos = PurePath(names[0]).stem if names else "", self._files(table, "photos", "photo")
+        self._hand([table], name)
+        self._seeds([table], name, photos)
         for find in (settings_of, reading_of, texture_of, faces_of, self._outputs):
             find(chain)
 
@@ -268,13 +249,14 @@ class _Reader:
         offered = photos is None and seeds is None and bool(pool)
         photos = pool if photos is None else photos
         place = places[path]
-        # Of photos that do not exist it was told.
-        if seeds is None and not photos and not any(table.texts("photos") for table in chain):
+        given = next((table["photos"] for table in reversed(chain) if "photos" in table), [])
+        # Of seeds and photos that do not exist it was told.
+        if seeds is None and not photos and given == [] and not any("seeds" in table for table in chain):
             self.refuse_at(place, "{path}: has neither seeds nor photos; give one of them", path=path)
         outputs = self._outputs(chain)
         plan = Plan(
             scans=tuple(path for path, _ in members),
-            wanted=str(last_value(own, "scan", (str, int), None) or ("all" if len(members) == 1 else "")) or None,
+            wanted=self._wanted(own) or ("all" if len(members) == 1 else None),
             name=name,
             seeds=seeds,
             hand=hand,
@@ -286,6 +268,14 @@ class _Reader:
             faces=faces_of(chain),
         )
         return Item(name=name, plan=plan, offered=offered, line=self._lines.of(*place))
+
+    def _wanted(self, own):
+        """Which scan of a file is meant; None where that is not said."""
+        wanted = last_value(own, "scan", (str, int), None)
+        if isinstance(wanted, int) and wanted < 1:
+            table = next(table for table in reversed(own) if "scan" in table)
+            table.refuse("scan", "scan {wanted}: expected a name, or a number from 1", wanted=wanted)
+        return None if wanted is None else str(wanted)
 
     def _tables_of(self, members):
         """The tables of all scans of an item; those of a site may not disagree, for they are worked on together."""
@@ -313,14 +303,15 @@ class _Reader:
         if text is None:
             return None
         path = self._path.parent / text
-        if not files_of_each(path, name):
+        if not _files_of_each(path, name):
             self._refuse_missing(table, "hand", text, name)
+            return None
         return path
 
     def _refuse_missing(self, table, key, text, name):
         """Refuse a file that an item of this name needs and that does not exist."""
         path = filled(self._path.parent / text, name)
-        near = hint(str(filled(text, name)), self._files_below)
+        near = self._hint(str(filled(text, name)), (".json",))
         table.refuse(key, "{key} {text!r}: there is no file {path}{hint}", key=key, text=text, path=path, hint=near)
 
     def _seeds(self, chain, name, photos):
@@ -330,7 +321,7 @@ class _Reader:
             if text is None:
                 continue
             path = self._path.parent / text
-            if files_of_each(path, name):
+            if _files_of_each(path, name):
                 return path
             if table is not self._whole or not photos:
                 self._refuse_missing(table, "seeds", text, name)
@@ -358,6 +349,14 @@ class _Reader:
         if last_value(chain, "render", bool, False):
             found.append(Output("render", self._folder.render(PLACEHOLDER), RENDER))
         return (*found, *self._folder.records(PLACEHOLDER))
+
+
+def _files_of_each(path, name):
+    """See `files_of_each`; none where a name is too long, or none at all."""
+    try:
+        return files_of_each(path, name)
+    except (OSError, ValueError):
+        return []
 
 
 def _merged(values):

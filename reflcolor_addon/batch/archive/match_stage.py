@@ -61,12 +61,12 @@ class Matched:
         """Return the photos that an item is colored from."""
         if item.name in self.by_likeness:
             return self.by_likeness[item.name]
-        found = self.pairs.get(item.name, {})
         # In the order of the manifest, whatever was found first.
-        shown = [path for path in map(str, item.plan.photos) if item.name in self.verdicts.get(path, Verdict()).shown]
+        paths, found = list(map(str, item.plan.photos)), self.pairs.get(item.name, {})
+        shown = [path for path in paths if item.name in self.verdicts.get(path, Verdict()).shown]
         if item.plan.settings.guess:
             # Guesses take their colors from photos that look like the scan, too.
-            shown += [path for path in found if path not in self.verdicts]
+            shown += [path for path in paths if path in found and path not in self.verdicts]
         return shown
 
     def placed_by(self, name, photos):

@@ -24,26 +24,18 @@ def hint(name, names):
     """
     ways = names if isinstance(names, dict) else dict.fromkeys(names, ())
     near = [other for other, more in ways.items() if name in more]
-    near = near or [other for other, more in ways.items() if any(_same(name, way) for way in (other, *more))]
-    if not near and not _is_pattern(name):
+    near = near or [other for other, more in ways.items() if any(_last(name) == _last(way) for way in (other, *more))]
+    if not near and not set("*?[").isdisjoint(name):
+        there = [other for other in ways if fnmatchcase(other.casefold(), name.casefold())]
+        return Message("; capitals count: there is {name}", name=there[0]) if there else ""
+    if not near:
         alike = sorted((-_likeness(name, other), other) for other in ways if _may_be_meant(name, other))
         near = [other for likeness, other in alike[:1] if -likeness >= _ALIKE]
     return Message("; did you mean {names}?", names=" or ".join(near[:_MOST])) if near else ""
 
 
-def _is_pattern(name):
-    return not set("*?[").isdisjoint(name)
-
-
-def _same(name, other):
-    """Whether two names differ in their folders or in capitals alone."""
-    if _is_pattern(name):
-        return fnmatchcase(other.casefold(), name.casefold())
-    return _last(name) == _last(other)
-
-
 def _last(name):
-    """A name without folders; those of Windows have backslashes."""
+    """A name without folders and capitals; folders of Windows have backslashes."""
     return name.replace("\\", "/").rpartition("/")[2].casefold()
 
 

@@ -16,7 +16,7 @@ CONTRADICTION = "contradiction"
 """What the column ``shows`` holds; a contradiction is a photo that was verified, but shows another place."""
 _SHOWS = ("", YES, NO, UNTESTED, UNTRIED, CONTRADICTION)
 _MOST_BYTES = 1 << 28
-# More names that a batch does not have are only counted.
+# More faults, and more names that a batch does not have, are only counted.
 _MOST_NAMES = 20
 
 
@@ -55,10 +55,10 @@ def read_pairs(path, refuse=_raise, lines=None):
     except UnicodeDecodeError:
         refuse(UsageError("{file}: is not UTF-8; save it as UTF-8", file=path))
         return {}
-    known, lines = {}, {} if lines is None else lines
-    for line, scan, photo, shows in _rows(text, path, refuse):
+    known, lines, faults = {}, {} if lines is None else lines, []
+    for line, scan, photo, shows in _rows(text, path, faults.append):
         if known.setdefault((scan, photo), shows) != shows:
-            refuse(
+            faults.append(
                 UsageError(
                     "{file}: line {line}: says {shows} of {scan} and {photo}, but line {other} says {otherwise}; "
                     "leave one of them out",
@@ -72,6 +72,10 @@ def read_pairs(path, refuse=_raise, lines=None):
                 )
             )
         lines.setdefault((scan, photo), line)
+    for fault in faults[:_MOST_NAMES]:
+        refuse(fault)
+    if len(faults) > _MOST_NAMES:
+        refuse(UsageError("{file}: {count} more lines are wrong", file=path, count=len(faults) - _MOST_NAMES))
     return known
 
 

@@ -3,7 +3,7 @@
 from collections import defaultdict
 
 from ...messages import Message
-from ...report.archive_entries import ITEMS
+from ...report.archive_entries import ITEMS, evidence_text
 from .options import COLOR, FAILED
 from .pairs import CONTRADICTION, NO, UNTESTED, UNTRIED, YES, write_pairs
 
@@ -68,12 +68,12 @@ def _said(pair, verdict, name, decided):
     if pair["verified"] and not decided:
         # Fed back as it is, it must not decide anything.
         note = Message("{note}; not compared with what other photos and scans show yet", note=pair["note"])
-        return "", f"{pair['evidence']:.2f}", note
+        return "", evidence_text(pair), note
     shows = YES if pair["verified"] else NO if pair["tested"] else UNTESTED
     if verdict is not None and pair["verified"] and name in verdict.refused:
         shows = CONTRADICTION
     note = pair["note"] if verdict is None or not verdict.doubt(name) else f"{pair['note']}; {verdict.doubt(name)}"
-    return shows, f"{pair['evidence']:.2f}", note
+    return shows, evidence_text(pair), note
 
 
 def _found_earlier(pair):
@@ -81,7 +81,7 @@ def _found_earlier(pair):
     note = Message("{note}; found in an earlier run, and not needed in this one", note=pair["note"])
     if pair["verified"]:
         note = Message("{note}; write yes to use it", note=note)
-    return "" if pair["verified"] else NO if pair["tested"] else UNTESTED, f"{pair['evidence']:.2f}", note
+    return "" if pair["verified"] else NO if pair["tested"] else UNTESTED, evidence_text(pair), note
 
 
 def _best(found):

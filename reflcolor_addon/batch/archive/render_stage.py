@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...report.amended import add_output
+from ...report.archive_entries import ITEMS
 from ..plan import PLACEHOLDER, RENDER
 from ..plan_document import as_document
 from .costs import SECONDS_TO_RENDER
@@ -26,6 +27,7 @@ def render_items(context, states):
         if colored is None or state.outcome in (FAILED, UNSHOWN):
             continue
         state.photos = colored["photos"] or []
+        state.effects = state.effects or (context.folder.recall(ITEMS, state.item.name) or {}).get("effects") or []
         plan = render_plan(context, state.item, colored["left_out"] or [])
         if plan is None:
             continue

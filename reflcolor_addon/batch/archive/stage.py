@@ -8,7 +8,7 @@ from pathlib import Path
 from ...errors import OutputError, ReflcolorError
 from ...failures import line_of
 from ...messages import Message
-from ...report.archive_entries import ITEMS, REPORTS
+from ...report.archive_entries import ITEMS, REPORTS, evidence_text
 from .options import DONE, ELSEWHERE, FAILED, KNOWN, OPEN, STAGES, UNSHOWN, State
 from .passing import may_pass
 
@@ -89,7 +89,7 @@ def work_on(context, stage, pieces, *, done=lambda state, outcome: None):
         again = {f"{Path(pair['path']).name}: {pair['note']}" for pair in state.matched}
         told = [line for line in outcome.get("lines", []) if line not in again]
         _write_log(task.log, outcome | {"lines": told}, _matched(context, state))
-        context.session.say(_line(stage, state, outcome, count, whole))
+        context.session.say(_line(state, outcome, count, whole))
         piece.claim.close()
         _require_folder(context)
         return state.outcome == FAILED and not options.keep_going
@@ -199,10 +199,15 @@ def fail(context, state, problem):
 
 def log_unshown(context, state):
     """Write the log of an item anew that no photo shows, as in an earlier run: others may have been tried since."""
-    _write_log(context.folder.log(state.item.name), {"done": True}, _matched(context, state), mode="w")
+    _write_log(
+        context.folder.log(state.item.name),
+        {"done": True, "warnings": state.warnings},
+        _matched(context, state),
+        mode="w",
+    )
 
 
-def _line(stage, state, outcome, count, whole):
+def _line(state, outcome, count, whole):
     said = {
         DONE: Message("done in {seconds:.0f} s", seconds=outcome.get("seconds", 0)),
         UNSHOWN: _unshown(state.photos),
@@ -212,8 +217,8 @@ def _line(stage, state, outcome, count, whole):
     if state.warnings:
         warned = Message("1 warning") if len(state.warnings) == 1 else Message("{n} warnings", n=len(state.warnings))
         said = Message("{said}, {warned} (see the report)", said=said, warned=warned)
-    what = Message("{count} of {whole} to {do}", count=count, whole=whole, do=stage)
-    return Message("{name}: {said} ({what})", name=state.item.name, said=said, what=what)
+    values = {"name": state.item.name, "said": said, "count": count, "whole": whole}
+    return Message("{name}: {said} (scan {count} of {whole})", **values)
 
 
 def _unshown(photos):
@@ -235,7 +240,7 @@ def _bare(text):
 def _matched(context, state):
     """What was found before the item was colorized, one line for each photo, the likeliest first, and what may help."""
     lines = [
-        f"{context.manifest.name_of(pair['path'])}: {pair['note']} (evidence {pair['evidence']:.2f})"
+        f"{context.manifest.name_of(pair['path'])}: {pair['note']} (evidence {evidence_text(pair)})"
         for pair in sorted(state.matched, key=lambda pair: -pair["evidence"])
     ]
     if state.outcome == UNSHOWN and state.matched:
