@@ -4,11 +4,15 @@ import csv
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from small_scans import random_scan
 
 from reflcolor_addon import Seeds
+from reflcolor_addon.batch.archive.check import check_manifest
+from reflcolor_addon.batch.archive.manifest_file import load_manifest
 from reflcolor_addon.cli.main import main
+from reflcolor_addon.files.images import write_png
 from reflcolor_addon.files.writers import write_ptx
 
 HEAD = 'format = "reflcolor-batch"\nversion = 1\noutput = "colored"\n'
@@ -75,3 +79,23 @@ def batch(archive, capfd):
         return status, said.out, said.err
 
     return run
+
+
+def read_manifest(folder, text):
+    """The manifest of this text in a folder, and the lines of what is wrong with it."""
+    path, faults = folder / "batch.toml", []
+    path.write_text(text, encoding="utf-8")
+    manifest = load_manifest(path, faults.append)
+    if manifest is not None:
+        check_manifest(manifest, None, faults.append)
+    return manifest, [str(fault).removeprefix(f"{path}: ") for fault in faults]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """An archive of three scans, and two photos in a folder of their own."""
+    make_archive(tmp_path)
+    (tmp_path / "photos").mkdir()
+    for name in ("a.png", "b.png"):
+        write_png(tmp_path / "photos" / name, np.full((8, 8, 3), 90, np.uint8))
+    return tmp_path

@@ -127,6 +127,30 @@ def test_a_scan_without_a_grid_is_told_the_way_out_that_a_manifest_has(archive, 
     assert 'in the manifest: reading = { grid = "angle" }' in err
 
 
+def test_a_scan_that_a_file_does_not_hold_is_told_before_anything_is_begun(archive, batch):
+    text = HEAD + '[[scan]]\nfile = "hall_0.ptx"\nseeds = "hall_0.seeds.json"\nscan = '
+    (archive / "batch.toml").write_text(text + "1\n", encoding="utf-8")
+    assert batch("--check")[0] == 0
+    (archive / "batch.toml").write_text(text + "2\n", encoding="utf-8")
+    status, _, err = batch("--check")
+    assert status == 2 and "batch.toml: line 4: hall_0.ptx: holds 1 scan, so scan 2 is none" in err
+
+
+def test_of_the_photos_of_an_archive_seeds_open_only_those_that_they_name(archive, batch):
+    for name, level in (("a.png", 60), ("b.png", 200)):
+        write_png(archive / name, np.full((40, 60, 3), level, np.uint8))
+    Seeds([1], [2], [[0, 0, 0]], photos=["a.png"], photo_xy=[[5.0, 5.0]]).save(archive / "hall_0.seeds.json")
+    text = HEAD + 'write = "png"\nscans = "hall_0.ptx"\nphotos = "?.png"\nseeds = "{scan}.seeds.json"\n'
+    (archive / "batch.toml").write_text(text, encoding="utf-8")
+    status, out, err = batch()
+    assert status == 0 and "hall_0: done in" in out and "warning" not in out + err
+    report = read_report(archive / "colored" / "reports" / "hall_0.json")
+    assert [entry["path"] for entry in report["inputs"] if entry["role"] == "photo"] == ["a.png"]
+    # Another photo in the archive changes nothing for it.
+    write_png(archive / "c.png", np.full((40, 60, 3), 90, np.uint8))
+    assert "1 done before" in batch("--resume")[1]
+
+
 def test_what_is_there_twice_is_worked_on_once_and_told(archive, batch):
     rng = np.random.default_rng(0)
     write_png(archive / "a.png", rng.integers(0, 256, (40, 60, 3)).astype(np.uint8))

@@ -5,6 +5,7 @@ from ...messages import Message
 from ..check import check_has_mesh, load_seeds
 from ..paths import files_of_each, output_faults
 from ..plan import PLACEHOLDER, RENDER
+from .folder import is_there
 
 
 def check_manifest(manifest, blender, refuse):
@@ -17,10 +18,14 @@ def check_manifest(manifest, blender, refuse):
     refuse : callable
         Given a UsageError for each thing that is wrong, with its line.
     """
+    said = set()
     for item in manifest.items:
 
-        def wrong(problem, item=item):
-            refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=item.line, problem=problem))
+        def wrong(problem, line=item.line):
+            # What is wrong for all scans is said once.
+            if (line, str(problem)) not in said:
+                said.add((line, str(problem)))
+                refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=line, problem=problem))
 
         for given in filter(None, (item.plan.seeds, item.plan.hand)):
             for path in files_of_each(given, item.name):
@@ -28,9 +33,10 @@ def check_manifest(manifest, blender, refuse):
         needing = [output for output in item.plan.outputs if output.needs_blender]
         if item.plan.needs_blender and (blender is None or blender.command is None):
             what = _what(needing)
-            wrong(
-                Message("{what} needs Blender; run the batch as: blender -b --command reflcolor batch ...", what=what)
+            told = Message(
+                "{what} needs Blender; run the batch as: blender -b --command reflcolor batch ...", what=what
             )
+            wrong(told, item.blender_line)
         _attempt(wrong, check_has_mesh, item.plan)
     _check_outputs(manifest, refuse)
 
@@ -63,16 +69,9 @@ def _check_outputs(manifest, refuse):
                     path=path,
                 )
             )
-    existing = next(folder for folder in (root, *root.absolute().parents) if _is_there(folder))
+    existing = next(folder for folder in (root, *root.absolute().parents) if is_there(folder))
     for fault in output_faults([("output", existing / ".reflcolor-try")], []):
         refuse(UsageError("{file}: {problem}", file=manifest.path, problem=fault.message))
-
-
-def _is_there(folder):
-    try:
-        return folder.exists()
-    except OSError:  # a name that is too long
-        return False
 
 
 def _attempt(wrong, act, *arguments):

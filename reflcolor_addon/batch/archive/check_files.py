@@ -33,7 +33,7 @@ def check_files(manifest, items, refuse, *, decode, progress):
     Costs
         By the sizes found, with what is wrong with the files that cannot be used.
     """
-    scans = {path: (item.line, item.plan) for item in items for path in item.plan.scans}
+    scans = {path: item for item in items for path in item.plan.scans}
     photos = {path: manifest.photo_lines[path] for item in items for path in item.plan.photos}
     found, count, done = Costs(), len(scans) + len(photos), 0
 
@@ -51,8 +51,8 @@ def check_files(manifest, items, refuse, *, decode, progress):
             refuse(UsageError("{file}: line {line}: {problem}", file=manifest.path, line=line, problem=problem))
             return None
 
-    for path, (line, plan) in scans.items():
-        pixels = look(path, line, partial(scan_pixels, path, options=plan.reading, outside=plan.outside_files))
+    for path, item in scans.items():
+        pixels = look(path, item.line, partial(_pixels_of, path, item))
         if pixels is not None:
             found.scans[path] = sum(pixels)
     for path, line in photos.items():
@@ -60,6 +60,17 @@ def check_files(manifest, items, refuse, *, decode, progress):
         if size is not None:
             found.photos[path] = size[0] * size[1]
     return found
+
+
+def _pixels_of(path, item):
+    """The pixels of the scans of a file, of which the manifest may choose one by its number."""
+    pixels = scan_pixels(path, options=item.plan.reading, outside=item.plan.outside_files)
+    if item.number is not None and item.number > len(pixels):
+        held = Message("1 scan") if len(pixels) == 1 else Message("{count} scans", count=len(pixels))
+        raise UsageError(
+            "{file}: holds {held}, so scan {number} is none", file=path.name, held=held, number=item.number
+        )
+    return pixels
 
 
 def _with_way(message):

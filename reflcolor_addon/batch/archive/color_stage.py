@@ -88,6 +88,10 @@ def color_plan(context, item, matched):
             # A person knows that these show it.
             photos += [photo for photo in photos_named(path, plan.photos) if photo in plan.photos]
         plan = replace(plan, photos=tuple(dict.fromkeys(photos)))
+    elif plan.seeds is not None:
+        # Of a whole archive's photos only those that its seeds name are opened.
+        named = {photo for path in files_of_each(plan.seeds, plan.name) for photo in photos_named(path, plan.photos)}
+        plan = replace(plan, photos=tuple(photo for photo in plan.photos if photo in named))
     outputs = [output for output in plan.outputs if output.kind != RENDER]
     if len(outputs) < len(plan.outputs) and not any(output.kind == IMAGE for output in outputs):
         outputs.insert(0, Output("write", context.folder.result(PLACEHOLDER, ".png"), IMAGE))

@@ -82,7 +82,7 @@ def draft(folder, path):
     """
     if not folder.is_dir():
         raise ScanError("{folder}: is not a folder; name the one that holds the scans", folder=folder)
-    files = sorted(filter(Path.is_file, files_below(folder)), key=lambda file: file.as_posix())
+    files = sorted(files_below(folder), key=lambda file: file.as_posix())
     scans = [file for file in files if file.name.lower().endswith(SCAN_SUFFIXES) and not _is_other_text(file)]
     if not scans:
         raise ScanError(

@@ -9,6 +9,7 @@ from ...messages import Message
 from ..paths import scan_files
 from ..plan import PLACEHOLDER
 
+# So many bytes of each file are compared before whole files are.
 _BEGINNING = 1 << 20
 
 

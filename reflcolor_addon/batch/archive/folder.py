@@ -18,12 +18,22 @@ from ..plan import PREVIEW, REPORT, Output
 
 
 def files_below(folder):
-    """Yield all files below a folder, except hidden ones and those that batches have written, in the same order each
-    time."""
+    """Yield all files below a folder, except hidden ones, those that batches have written, and what may not be looked
+    at; in the same order each time."""
     for root, folders, names in os.walk(folder):
         here = Path(root)
-        folders[:] = sorted(name for name in folders if not name.startswith(".") and not (here / name / STATE).is_dir())
-        yield from (here / name for name in sorted(names) if not name.startswith("."))
+        shown = (name for name in folders if not name.startswith("."))
+        folders[:] = sorted(name for name in shown if not is_there(here / name / STATE))
+        paths = (here / name for name in sorted(names) if not name.startswith("."))
+        yield from (path for path in paths if is_there(path) and path.is_file())
+
+
+def is_there(path):
+    """Whether a path can be looked at and is something; a name that no file can have is nothing."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
 
 
 @dataclass(frozen=True)

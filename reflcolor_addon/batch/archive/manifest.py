@@ -20,12 +20,18 @@ class Item:
         Whether its photos are those of the whole batch, of which has to be found out which ones show it.
     line : int
         Where the manifest names it.
+    blender_line : int
+        Where it asks for what only Blender can do, if it does.
+    number : int, optional
+        Which scan of a file is meant, where the manifest says that by a number; see `Plan.wanted`.
     """
 
     name: str
     plan: Plan
     offered: bool
     line: int
+    blender_line: int
+    number: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,9 +11,9 @@ from ...errors import UsageError
 from ...files.images import IMAGE_SUFFIXES
 from ...files.readers import SCAN_SUFFIXES
 from ..paths import files_of_each
-from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, Output, Plan, filled
+from ..plan import PLACEHOLDER, RENDER, RESULT_SUFFIXES, SCENE, Output, Plan, filled
 from ..read import safe_label
-from .folder import BatchFolder, files_below
+from .folder import BatchFolder, files_below, is_there
 from .manifest import Item, Manifest
 from .manifest_table import ManifestTable, last_value
 from .manifest_values import faces_of, reading_of, settings_of, texture_of
@@ -82,7 +82,7 @@ class _Reader:
         pool = self._files(whole, "photos", "photo") or []
         pool = list(dict.fromkeys(path for _, path in pool))
         pairs = whole.get("pairs", str)
-        if pairs is not None and not self._is("is_file", pairs):
+        if pairs is not None and self._path.parent / pairs not in self._matching(pairs):
             whole.refuse("pairs", "pairs: there is no file {path}{hint}", path=pairs, hint=self._hint(pairs, (".csv",)))
         if pairs is not None and (self._path.parent / pairs).absolute() == self._folder.pairs.absolute():
             whole.refuse(
@@ -111,7 +111,7 @@ class _Reader:
         for place, text in texts:
             paths = self._matching(text)
             self._misses_scan |= what == "scan" and not paths
-            if not paths and text and self._is("is_dir", text):
+            if not paths and text and is_there(self._path.parent / text):
                 inside = f'"{text.rstrip("/")}/*"'
                 table.refuse(place, "{what} {text!r}: is a folder; write {inside}", what=what, text=text, inside=inside)
             elif not paths:
@@ -155,13 +155,6 @@ class _Reader:
         except (OSError, ValueError):  # a null character, an empty pattern
             return []
 
-    def _is(self, kind, text):
-        """Whether a name means something of a kind: ``is_file`` or ``is_dir``."""
-        try:
-            return getattr(self._path.parent / text, kind)()
-        except (OSError, ValueError):  # a name that is too long
-            return False
-
     def _seen(self, path):
         """A path as it is seen from the manifest's folder, if it lies below that."""
         folder = self._path.parent
@@ -190,7 +183,7 @@ class _Reader:
             site = last_value(own, "site", str, None)
             key = ("site", site) if site else ("file", str(path))
             groups.setdefault(key, []).append((path, chain))
-        self._refuse_same_names([members[0][1][1:] for (kind, _), members in groups.items() if kind == "file"])
+        self._refuse_same_names(groups)
         given = [
             key if kind == "site" else last_value(members[0][1][1:], "name", str, None)
             for (kind, key), members in groups.items()
@@ -198,20 +191,19 @@ class _Reader:
         names = item_names(given, [self._seen(members[0][0]) for members in groups.values()])
         return [self._item(name, members, places, pool) for name, members in zip(names, groups.values(), strict=True)]
 
-    def _refuse_same_names(self, chains):
-        """Refuse a name that several tables of single scans give; one table may give one to many files."""
+    def _refuse_same_names(self, groups):
+        """Refuse a name or a site that results of another item have; one table may give one to many files."""
         first = {}
-        for chain in chains:
-            table = next((table for table in reversed(chain) if "name" in table), None)
-            name = None if table is None else table.get("name", str)
-            if name is None:
-                continue
-            other = first.setdefault(safe_label(name).casefold(), table)
-            if other is not table:
-                line = self._lines.of(*other.at, "name")
-                table.refuse(
-                    "name", "name {name!r}: line {other} has it, too; give each its own", name=name, other=line
-                )
+        for (kind, _), members in groups.items():
+            key = "site" if kind == "site" else "name"
+            table = next((table for table in reversed(members[0][1][1:]) if key in table), None)
+            name = None if table is None else table.get(key, str)
+            if name is not None:
+                other, its_key = first.setdefault(safe_label(name).casefold(), (table, key))
+                if other is not table:
+                    line = self._lines.of(*other.at, its_key)
+                    told = "{key} {name!r}: line {line_of} has it, too; give each its own"
+                    table.refuse(key, told, key=key, name=name, line_of=line)
 
     def _look_over(self, table):
         """Find what else is wrong with a table whose scan does not exist."""
@@ -253,10 +245,10 @@ class _Reader:
         # Of seeds and photos that do not exist it was told.
         if seeds is None and not photos and given == [] and not any("seeds" in table for table in chain):
             self.refuse_at(place, "{path}: has neither seeds nor photos; give one of them", path=path)
-        outputs = self._outputs(chain)
+        outputs, wanted = self._outputs(chain), self._wanted(own)
         plan = Plan(
             scans=tuple(path for path, _ in members),
-            wanted=self._wanted(own) or ("all" if len(members) == 1 else None),
+            wanted=("all" if len(members) == 1 else None) if wanted is None else str(wanted),
             name=name,
             seeds=seeds,
             hand=hand,
@@ -267,15 +259,33 @@ class _Reader:
             texture=texture_of(chain),
             faces=faces_of(chain),
         )
-        return Item(name=name, plan=plan, offered=offered, line=self._lines.of(*place))
+        return Item(
+            name=name,
+            plan=plan,
+            offered=offered,
+            line=self._lines.of(*place),
+            blender_line=self._blender_line(chain, place),
+            number=wanted if isinstance(wanted, int) else None,
+        )
+
+    def _blender_line(self, chain, place):
+        """The line that asks for what only Blender can do; that of the scan where none does."""
+        for table in reversed(chain):
+            for at, text in table.texts("write") or ():
+                if RESULT_SUFFIXES.get("." + text.removeprefix(".").lower()) == SCENE:
+                    return self._lines.of(*table.at, *at)
+            for key, kind in (("render", bool), ("faces", int)):
+                if table.get(key, kind):
+                    return self._lines.of(*table.at, key)
+        return self._lines.of(*place)
 
     def _wanted(self, own):
-        """Which scan of a file is meant; None where that is not said."""
+        """Which scan of a file is meant, by its name or its number; None where that is not said."""
         wanted = last_value(own, "scan", (str, int), None)
         if isinstance(wanted, int) and wanted < 1:
             table = next(table for table in reversed(own) if "scan" in table)
             table.refuse("scan", "scan {wanted}: expected a name, or a number from 1", wanted=wanted)
-        return None if wanted is None else str(wanted)
+        return wanted
 
     def _tables_of(self, members):
         """The tables of all scans of an item; those of a site may not disagree, for they are worked on together."""
